@@ -49,6 +49,9 @@ struct SnapshotInfo {
   std::vector<std::filesystem::path> files;  // at least one; of arrays in memory, their name
   // Files that it is read from as well: arrays beside it, what its datasets lead to.
   std::vector<std::filesystem::path> files_beside;
+  // Follows from the names, lengths and times that all of these had when they were opened, so that
+  // files that are written anew have another one. 0: there are no files.
+  std::uint64_t files_mark = 0;
   double time = 0;
   std::optional<double> redshift;
   // Of the periodic box, as the file says, whether or not its particles lie in it; none: not

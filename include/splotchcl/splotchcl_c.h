@@ -7,7 +7,9 @@
  * A scene says what to draw and how, in the words of docs/scene.md; its key `snapshot` is not
  * needed, since particles come from memory. No function but splotchcl_scene_from_file and
  * splotchcl_write_image touches a file, unless the scene itself names one (a palette, a
- * background, another snapshot).
+ * background, another snapshot). A snapshot that it names is mapped: once another program makes
+ * that file shorter, reading it raises SIGBUS. The library leaves signals to the program, which
+ * ends by it unless it has a handler.
  *
  * Functions that can fail take a last argument `error`, which may be null; after a success its
  * code is 0 and its message empty. Those that return an int return 0, 1 (the data or the device

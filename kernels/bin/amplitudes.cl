@@ -16,32 +16,32 @@ INLINED float3 sample_knots(__global const float* knots, uint first, float last,
   return (color + (place - (float)below) * (above - color)).xyz;
 }
 
-#ifdef VECTOR_COLORS
 INLINED float3 own_color_of(const Splat splat) {
+#if VECTOR_COLORS
   return (float3)(splat.own_color.rgb[0], splat.own_color.rgb[1], splat.own_color.rgb[2]);
-}
+#else
+  return (float3)(1.0f);
 #endif
+}
 
-#ifndef LIGHT_ORDERED
+#if !LIGHT_ORDERED
 // E w, or A w in the proportional plan, at the cloud's centre.
 INLINED float3 summed_amplitude(const Splat splat, const ComponentColors colors,
                                 __global const float* knots) {
   float3 summed =
       splat.weight * colors.summed_scale *
       sample_knots(knots, colors.first_summed_knot, colors.last_summed_knot, splat.color);
-#ifdef VECTOR_COLORS
   // An absorption palette of its own is not the particles' colour.
-  if (colors.first_summed_knot == colors.first_knot) summed *= own_color_of(splat);
-#endif
-  return summed;
+  const int is_own = VECTOR_COLORS && colors.first_summed_knot == colors.first_knot;
+  return is_own ? summed * own_color_of(splat) : summed;
 }
 #else
 // A cloud's own amplitude over that of its splat, which is widened where center values are taken,
 // and narrower on a coarse grid that is blurred afterwards.
 INLINED float own_part(const Splat splat, const BinParameters p) {
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
   return 1.0f / splat.part;
-#elif defined(ELLIPSES)
+#elif ELLIPSES
   const float drawn2 = splat.sigma * splat.sigma;
   const float across2 = splat.along_x.sigma * splat.along_x.sigma;
   float restored = splat.sigma < p.mean_sigma ? 1.0f : drawn2 / (drawn2 - p.widening);
@@ -70,9 +70,7 @@ typedef struct Amplitudes {
 INLINED Amplitudes amplitudes_of(const Splat splat, const ComponentColors colors,
                                  __global const float* knots, const BinParameters p) {
   float3 emitted = sample_knots(knots, colors.first_knot, last_of(colors.knot_count), splat.color);
-#ifdef VECTOR_COLORS
-  emitted *= own_color_of(splat);
-#endif
+  if (VECTOR_COLORS) emitted *= own_color_of(splat);
   float3 absorbed = emitted;
   if (colors.absorption_knot_count > 0) {
     absorbed = sample_knots(knots, colors.first_absorption_knot,

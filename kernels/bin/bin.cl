@@ -15,7 +15,7 @@
 static inline uint slots_end(const BinParameters p, __global const BlockCounts* blocks,
                              uint block) {
   const uint begin = p.first + block * p.stride;
-#ifndef LIGHT_ORDERED
+#if !LIGHT_ORDERED
   // Blocks are the projection's: each fills only a part of its stride.
   return min(begin + p.length, block * p.stride + blocks[block].visible);
 #else
@@ -28,7 +28,7 @@ static inline uint slots_end(const BinParameters p, __global const BlockCounts* 
 #define ENTRIES_AHEAD 4
 #define SLOTS_AHEAD 32
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 KERNEL_BODY void count_block(const BinParameters* of_band, __global const Grid* grids,
                              __global const Splat* splats, __global const uint* order,
                              __global uint* counts, __global uint* tiles, __global Splat* in_order,
@@ -48,7 +48,7 @@ KERNEL_BODY void count_block(const BinParameters* of_band, __global const Grid* 
     ask_to_write(kept + SLOTS_AHEAD);
     *kept = splat;
     __global const Grid* grid = grids + grid_of(splat);
-#ifdef TILES_IN_SPLAT
+#if TILES_IN_SPLAT
     const uint touched = tiles_in_lists(splat.tiles, kept, grid);
 #else
     const uint touched = tiles_of(splat, *grid);
@@ -146,7 +146,7 @@ INLINED __global TileSplat* next_entry(const ListedBand band, uint tile) {
   return band.entries + (band.starts[tile] + band.count[tile]++);
 }
 
-#ifdef EXTENDED_NUMBERS
+#if EXTENDED_NUMBERS
 INLINED void list_slot(const ListedBand band, const Splat splat, const Grid grid, uint touched,
                        uint slot) {
   const int4 range = unpack_tiles(touched, splat, grid);
@@ -236,20 +236,20 @@ KERNEL_BODY void scatter_block(const BinParameters* of_band, __global const Grid
   band.count = counts + (size_t)block * p.tile_count;
   band.entries = entries;
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
-#ifndef LIGHT_ORDERED
+#if !LIGHT_ORDERED
     __global const Splat* from = splats + slot;
 #else
     __global const Splat* from = in_order + (slot - p.first);
 #endif
     ask_for(from + SLOTS_AHEAD);
-#if !defined(LIGHT_ORDERED) && defined(TILES_IN_SPLAT)
+#if !LIGHT_ORDERED && TILES_IN_SPLAT
     const uint touched = tiles_in_lists(from->tiles, from, grids + grid_of(*from));
 #else
     const uint touched = tiles[slot - p.first];
 #endif
-#if defined(EXTENDED_NUMBERS) && defined(LIGHT_ORDERED)
+#if EXTENDED_NUMBERS && LIGHT_ORDERED
     list_slot(band, *from, grids[grid_of(*from)], touched, order[slot]);
-#elif defined(EXTENDED_NUMBERS)
+#elif EXTENDED_NUMBERS
     list_slot(band, *from, grids[grid_of(*from)], touched, slot);
 #else
     if (touched == FOUND_AGAIN) {

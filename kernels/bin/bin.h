@@ -2,8 +2,7 @@
 #include "kernels/common/ellipse.h"
 #include "kernels/common/grid.h"
 
-#ifndef SPLOTCHCL_BIN_H
-#define SPLOTCHCL_BIN_H
+#pragma once
 
 // What sums add up of a splat: A w, or E w where nothing absorbs; in slabs of an ordered plan six,
 // A w and E w (composite_rows.cl).
@@ -14,21 +13,21 @@
 // A splat in the list of one tile, positions relative to the tile's middle, amplitudes at
 // the splat's center.
 struct TileSplat {
-#ifdef EXTENDED_NUMBERS
+#if EXTENDED_NUMBERS
   unsigned int slot;  // of the extended splat (composite_extended_rows.cl)
 #else
   float x, y;
   float sigma, radius;  // sigma as in Splat
-#ifdef ELLIPSES
+#if ELLIPSES
   struct WidthAlongX along_x;
 #endif
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
   struct Tilt tilt;
 #endif
-#ifdef FINE_PLACES
+#if FINE_PLACES
   float x_low, y_low;   // what x and y do not hold of the place
 #endif
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   float absorption[3];  // A w
   float emission[3];    // E w
 #else
@@ -84,12 +83,8 @@ struct Segment {
 };
 #define NO_PARTIAL 0xffffffffu
 
-#ifdef __OPENCL_VERSION__
 typedef struct TileSplat TileSplat;
 typedef struct BinParameters BinParameters;
 typedef struct SplatTiles SplatTiles;
 typedef struct GroupBinParameters GroupBinParameters;
 typedef struct Segment Segment;
-#endif
-
-#endif

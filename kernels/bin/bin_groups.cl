@@ -12,21 +12,9 @@
 #include "kernels/common/splat.h"
 #include "kernels/project/project.h"
 
-// The slots of a chunk: all of the sorted ones, or as many as the projection has filled.
-INLINED uint slot_count(const BinParameters p, __global const BlockCounts* blocks) {
-#ifndef LIGHT_ORDERED
-  return min(p.end - p.first, blocks->visible);
-#else
+// Those of a chunk, numbered as they are listed.
+INLINED uint splat_count(const BinParameters p) {
   return p.end - p.first;
-#endif
-}
-
-INLINED uint splat_of_slot(const BinParameters p, __global const uint* order, uint slot) {
-#ifndef LIGHT_ORDERED
-  return p.first + slot;
-#else
-  return order[p.first + slot];
-#endif
 }
 
 INLINED SplatTiles tiles_of_splat(const Splat splat, const Grid grid) {
@@ -63,14 +51,13 @@ INLINED void count_in_groups(const SplatTiles tiles, const Grid grid, __global u
 // `counts` has room for all tiles twice, in each of its copies, and is 0 at first.
 __kernel OF_GROUPS void bin_find_tiles(const GroupBinParameters p, __global const Grid* grids,
                                        __global const Splat* splats, __global const uint* order,
-                                       __global const BlockCounts* blocks,
                                        __global SplatTiles* tiles, __global uint* counts) {
-  const uint slot = get_global_id(0);
-  if (slot >= slot_count(p.bin, blocks)) return;
-  const Splat splat = splats[splat_of_slot(p.bin, order, slot)];
+  const uint number = get_global_id(0);
+  if (number >= splat_count(p.bin)) return;
+  const Splat splat = splats[order[p.bin.first + number]];
   const Grid grid = grids[grid_of(splat)];
   const SplatTiles found = tiles_of_splat(splat, grid);
-  tiles[slot] = found;
+  tiles[number] = found;
   __global uint* own =
       counts + (size_t)(get_group_id(0) % COPIES_OF_COUNTS) * (2u * p.bin.tile_count);
   count_in_groups(found, grid, own, own + p.bin.tile_count);
@@ -95,24 +82,19 @@ INLINED uint tiles_before(const SplatTiles tiles, uint tile) {
                           : tiles.rows * tiles.columns;
 }
 
-// How many entries each slot has in the band; slots beyond the last splat have none.
+// How many entries each splat has in the band.
 __kernel OF_GROUPS void bin_count_entries(const GroupBinParameters p,
-                                          __global const BlockCounts* blocks,
                                           __global const SplatTiles* tiles,
                                           __global uint* entry_counts) {
-  const uint slot = get_global_id(0);
-  if (slot >= p.bin.end - p.bin.first) return;
-  uint count = 0;
-  if (slot < slot_count(p.bin, blocks)) {
-    const SplatTiles own = tiles[slot];
-    count = tiles_before(own, p.bin.end_tile) - tiles_before(own, p.bin.first_tile);
-  }
-  entry_counts[slot] = count;
+  const uint number = get_global_id(0);
+  if (number >= splat_count(p.bin)) return;
+  const SplatTiles own = tiles[number];
+  entry_counts[number] = tiles_before(own, p.bin.end_tile) - tiles_before(own, p.bin.first_tile);
 }
 
-// The last slot from `low` on and before `end` whose entries begin at this one or before: it has
+// The last splat from `low` on and before `end` whose entries begin at this one or before: it has
 // it.
-INLINED uint slot_of_entry(__global const uint* first_entries, uint low, uint end, uint entry) {
+INLINED uint splat_of_entry(__global const uint* first_entries, uint low, uint end, uint entry) {
   uint high = end;
   while (high - low > 1) {
     const uint middle = low + (high - low) / 2;
@@ -125,7 +107,7 @@ INLINED uint slot_of_entry(__global const uint* first_entries, uint low, uint en
   return low;
 }
 
-// Entries in the order of slots, and of each slot in that of tiles. The slots of a group's first
+// Entries in the order of splats, and of each splat in that of tiles. The splats of a group's first
 // and last entry are looked for among all, the others between them.
 __kernel OF_GROUPS void bin_emit(const GroupBinParameters p, __global const uint* order,
                                  __global const SplatTiles* tiles,
@@ -136,19 +118,19 @@ __kernel OF_GROUPS void bin_emit(const GroupBinParameters p, __global const uint
   const uint item = get_local_id(0), first = get_group_id(0) * GROUP_ITEMS;
   const uint last = min(first + GROUP_ITEMS, p.entry_count) - 1u, entry = first + item;
   if (item < 2) {
-    ends[item] = slot_of_entry(first_entries, 0, p.bin.end - p.bin.first, item == 0 ? first : last);
+    ends[item] = splat_of_entry(first_entries, 0, splat_count(p.bin), item == 0 ? first : last);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   if (entry > last) return;
-  const uint slot = slot_of_entry(first_entries, ends[0], ends[1] + 1, entry);
-  const SplatTiles own = tiles[slot];
-  const uint k = entry - first_entries[slot] + tiles_before(own, p.bin.first_tile);
+  const uint number = splat_of_entry(first_entries, ends[0], ends[1] + 1, entry);
+  const SplatTiles own = tiles[number];
+  const uint k = entry - first_entries[number] + tiles_before(own, p.bin.first_tile);
   const uint tile = own.first + k / own.columns * own.grid_columns + k % own.columns;
   tiles_of_entries[entry] = tile - p.bin.first_tile;
-  splats_of_entries[entry] = splat_of_slot(p.bin, order, slot);
+  splats_of_entries[entry] = order[p.bin.first + number];
 }
 
-#ifdef EXTENDED_NUMBERS
+#if EXTENDED_NUMBERS
 INLINED TileSplat entry_of(const BinParameters p, uint splat) {
   TileSplat entry;
   entry.slot = splat;
@@ -182,7 +164,7 @@ __kernel OF_GROUPS void bin_make_entries(const GroupBinParameters p, __global co
   const uint count = min((uint)GROUP_ITEMS, p.entry_count - first);
   if (item < count) {
     const uint splat = splats_of_entries[first + item];
-#ifdef EXTENDED_NUMBERS
+#if EXTENDED_NUMBERS
     own[item] = entry_of(p.bin, splat);
 #else
     const Splat found = splats[splat];

@@ -6,20 +6,20 @@
 #include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
 
-#ifndef EXTENDED_NUMBERS
+#if !EXTENDED_NUMBERS
 // All but the place, which differs from tile to tile.
 INLINED TileSplat entry_without_place(const Splat splat, const ComponentColors colors,
                                       __global const float* knots, const BinParameters p) {
   TileSplat entry;
   entry.sigma = splat.sigma;
   entry.radius = splat.radius;
-#ifdef ELLIPSES
+#if ELLIPSES
   entry.along_x = splat.along_x;
 #endif
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
   entry.tilt = splat.tilt;
 #endif
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   const Amplitudes found = amplitudes_of(splat, colors, knots, p);
   entry.emission[0] = found.emission.x;
   entry.emission[1] = found.emission.y;
@@ -42,7 +42,7 @@ INLINED void set_units(TileSplat* entry, const Splat splat, int2 units, float un
   const float2 place = convert_float2(units) * unit;
   entry->x = place.x;
   entry->y = place.y;
-#ifdef FINE_PLACES
+#if FINE_PLACES
   entry->x_low = rest_of_units(units.x, fraction_of_x(splat), unit);
   entry->y_low = rest_of_units(units.y, fraction_of_y(splat), unit);
 #endif
@@ -61,7 +61,7 @@ INLINED void set_place(TileSplat* entry, const Splat splat, const Grid grid, int
   // A splat of units of a pixel and more is wider than they are by far.
   entry->x = (float)place.x * unit - (float)from_middle.x;
   entry->y = (float)place.y * unit - (float)from_middle.y;
-#ifdef FINE_PLACES
+#if FINE_PLACES
   entry->x_low = entry->y_low = 0.0f;
 #endif
 }

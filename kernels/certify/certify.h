@@ -1,8 +1,7 @@
 // What host and kernels share of the check after drawing: 4-byte members only (grid.h).
 #include "kernels/common/grid.h"
 
-#ifndef SPLOTCHCL_CERTIFY_H
-#define SPLOTCHCL_CERTIFY_H
+#pragma once
 
 // Square cells of one octave of widths in a tile, in the order of its pixels' numbers, of which the
 // bits of column and row follow each other in turn (Morton's order): those of a cell are one run.
@@ -26,9 +25,5 @@ struct CertifyParameters {
   float light_behind;  // an error of absorption counts as so much of one of emission (plan.h)
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct OctaveCells OctaveCells;
 typedef struct CertifyParameters CertifyParameters;
-#endif
-
-#endif

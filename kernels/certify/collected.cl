@@ -31,7 +31,7 @@ INLINED VALUE largest_channel(const FieldLanes fields) {
 
 // The brightest channel at the splats' centers.
 INLINED VALUE amplitudes_of(__global const TileSplat* s, float light_behind) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   return larger_of(LARGEST_CHANNEL(s, emission), light_behind * LARGEST_CHANNEL(s, absorption));
 #else
   return LARGEST_CHANNEL(s, summed);
@@ -150,7 +150,7 @@ INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParamet
                                const GridOfCells grid, const Reach reach) {
   const EntryLanes entry = load_entries(s);
   const VALUE x = entry.x, y = entry.y, drawn_sigma = entry.sigma, sigma = fabs(drawn_sigma);
-#ifdef ELLIPSES
+#if ELLIPSES
   const VALUE area = sigma * fabs(OF_ENTRIES(s, along_x.sigma));
 #else
   const VALUE area = sigma * sigma;

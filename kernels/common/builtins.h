@@ -48,6 +48,7 @@ size_t BUILTIN_CONST get_global_id(uint);
 size_t BUILTIN_CONST get_global_size(uint);
 size_t BUILTIN_CONST get_group_id(uint);
 size_t BUILTIN_CONST get_local_id(uint);
+size_t BUILTIN_CONST get_local_size(uint);
 void __attribute__((overloadable, convergent)) barrier(cl_mem_fence_flags);
 
 // Of floats.

@@ -1,6 +1,5 @@
 // What host and kernels share of clearing memory: 4-byte members only (grid.h).
-#ifndef SPLOTCHCL_CLEAR_H
-#define SPLOTCHCL_CLEAR_H
+#pragma once
 
 // Words of four bytes that a work-item clears: enough to be worth a thread's turn.
 #define CLEARED_WORDS 16384
@@ -10,8 +9,4 @@ struct ClearParameters {
   unsigned int words;
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct ClearParameters ClearParameters;
-#endif
-
-#endif

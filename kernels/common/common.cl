@@ -8,6 +8,9 @@
 #define INLINED __attribute__((always_inline)) static inline
 #endif
 
+// Found when the program is compiled.
+#define REQUIRE(what, condition) typedef char requires_##what[(condition) ? 1 : -1]
+
 // What hardly any lane needs: a call on processors, where it would take registers from what all of
 // them need. GPUs' compilers would put the structures that a call is handed in memory of each
 // work-item's own, and keep registers for it.
@@ -27,7 +30,7 @@
 #endif
 
 // Of functions that there are for eight numbers and for sixteen.
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 #define OVERLOADED __attribute__((overloadable))
 #else
 #define OVERLOADED

@@ -1,6 +1,5 @@
 // What splats have beside a width where they are no discs: 4-byte members only (grid.h).
-#ifndef SPLOTCHCL_ELLIPSE_H
-#define SPLOTCHCL_ELLIPSE_H
+#pragma once
 
 // Splats of equirectangular pictures are wider than high: x and y have widths of their own.
 struct WidthAlongX {
@@ -14,17 +13,13 @@ struct Tilt {
   float scale;            // squared_width over `part` of the splat
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct WidthAlongX WidthAlongX;
 typedef struct Tilt Tilt;
 
-#ifdef ELLIPSES
+#if ELLIPSES
 #define SIGMA_X(splat) ((splat).along_x.sigma)
 #define RADIUS_X(splat) ((splat).along_x.radius)
 #else
 #define SIGMA_X(splat) ((splat).sigma)
 #define RADIUS_X(splat) ((splat).radius)
-#endif
-#endif
-
 #endif

@@ -1,8 +1,7 @@
 // What several stages share: numbers, grids and the stencils of splats. Structures lie in memory
 // alike for host and kernels: only 4-byte members, and arrays of them, so that no compiler pads
 // them differently.
-#ifndef SPLOTCHCL_GRID_H
-#define SPLOTCHCL_GRID_H
+#pragma once
 
 // Splats are told apart by the octave of their width in pixels (plan.h, width_octaves).
 #define WIDTH_OCTAVES 16
@@ -55,11 +54,7 @@ struct Stencil {
   float coefficients[STENCIL_PLACE_POWERS * STENCIL_WIDTH_POWERS * STENCIL_PIXELS];
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct FloatPair FloatPair;
 typedef struct Grid Grid;
 typedef struct GridBlurs GridBlurs;
 typedef struct Stencil Stencil;
-#endif
-
-#endif

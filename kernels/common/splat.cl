@@ -24,7 +24,7 @@ INLINED float unit_of(const Splat splat, const Grid grid) {
   return as_float(as_uint(grid.unit) + (coarser_of(splat) << 23));
 }
 
-#ifdef FINE_PLACES
+#if FINE_PLACES
 INLINED float fraction_of_x(const Splat splat) {
   return (float)((int)(splat.place_fractions << 16) >> 16) * 0x1p-16f;
 }

@@ -2,8 +2,7 @@
 #include "kernels/common/ellipse.h"
 #include "kernels/common/grid.h"
 
-#ifndef SPLOTCHCL_SPLAT_H
-#define SPLOTCHCL_SPLAT_H
+#pragma once
 
 struct OwnColor {
   float rgb[3];
@@ -21,25 +20,25 @@ struct Splat {
   float weight;                     // w' = w sigma^2 / sigma'^2
   float color;                      // palette position in [0, 1]
   unsigned int component_and_grid;  // component | grid << 16 | power of the coarser unit << 24
-#ifdef ELLIPSES
+#if ELLIPSES
   struct WidthAlongX along_x;
 #endif
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
   struct Tilt tilt;
   float part;  // no pixel has more of the cloud's own weight, and this part of it is the splat's
 #endif
-#ifdef VECTOR_COLORS
+#if VECTOR_COLORS
   struct OwnColor own_color;
 #endif
-#ifdef FINE_PLACES
+#if FINE_PLACES
   // What x and y do not hold of the place of a sharp splat, in 2^-16 of their unit, signed: that of
   // x in the lower 16 bits.
   unsigned int place_fractions;
 #endif
-#ifdef TILES_IN_SPLAT
+#if TILES_IN_SPLAT
   unsigned int tiles;  // of the whole picture that it touches (tiles.cl)
 #endif
-#ifdef WHOLE_SECTORS
+#if WHOLE_SECTORS
   unsigned int unused;  // a GPU gathers 32 bytes at a time
 #endif
 };
@@ -66,10 +65,6 @@ struct ComponentColors {
   float summed_scale;
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct OwnColor OwnColor;
 typedef struct Splat Splat;
 typedef struct ComponentColors ComponentColors;
-#endif
-
-#endif

@@ -22,7 +22,7 @@ __kernel void put_behind(const BehindParameters p, __global const Grid* grids,
   const size_t plane = grid->plane_size, layer_plane = (size_t)p.width * p.height;
   for (int c = 0; c < 3; ++c) {
     for (int i = 0; i < count; ++i) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
       __global float* opacity = own + (c + 3) * plane + i;
       const float transmittance = transmittance_of(*opacity);
       own[c * plane + i] += transmittance * behind[c * layer_plane + i];

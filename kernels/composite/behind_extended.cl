@@ -44,7 +44,7 @@ __kernel void put_behind(const BehindParameters p, __global const Grid* grids,
   for (int c = 0; c < 3; ++c) {
     __global const float* added = behind + 2 * c * layer_plane;
     float8 high = load_first(count, added), low = load_first(count, added + layer_plane);
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
     __global float* depths = own + (2 * c + 6) * plane;
     const ExtendedLanes depth = load_first_extended(count, depths, plane);
     const float8 seen = precise_exp_negative(high_lanes(depth), low_lanes(depth));

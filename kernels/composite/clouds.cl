@@ -8,10 +8,6 @@
 #include "kernels/composite/shape.cl"
 
 // Hardly any frame has some.
-#ifndef CLOUDS_IN_LISTS
-#define CLOUDS_IN_LISTS 0
-#endif
-
 // Of all tiles.
 typedef struct CloudTables {
   __global const CloudEntry* entries;

@@ -1,8 +1,7 @@
 // What host and kernels share of compositing: 4-byte members only (grid.h).
 #include "kernels/common/grid.h"
 
-#ifndef SPLOTCHCL_COMPOSITE_H
-#define SPLOTCHCL_COMPOSITE_H
+#pragma once
 
 // The face of a cube that the picture is: its middle, in pixels of the whole picture, and 1 / the
 // pixels of a tangent of 1.
@@ -62,7 +61,6 @@ struct AddLightParameters {
   unsigned int plane_floats;           // of each
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct AddLightParameters AddLightParameters;
 typedef struct CubeFace CubeFace;
 typedef struct CompositeParameters CompositeParameters;
@@ -70,6 +68,3 @@ typedef struct CloudEntry CloudEntry;
 typedef struct CloudSplat CloudSplat;
 typedef struct DirectionCone DirectionCone;
 typedef struct BehindParameters BehindParameters;
-#endif
-
-#endif

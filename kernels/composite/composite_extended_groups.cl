@@ -21,7 +21,7 @@
 
 #define AXES (TILE_WIDTH + TILE_HEIGHT)
 #define BATCH 8
-#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
+#if KERNEL_CUT && !FACE_OF_CUBE
 #define CUT_BY_AXES
 #endif
 
@@ -73,7 +73,7 @@ static inline Extended wide_mean(Extended d, Extended sigma) {
 
 // One axis of the shape in the pixel whose centre is at distance d >= 0.
 static inline Extended extended_axis(Extended d, Extended sigma) {
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
   if (high_part(sigma) < 3.0f) return narrow_mean(d, sigma);
   if (high_part(sigma) < 1e4f) return wide_mean(d, sigma);
 #endif
@@ -85,7 +85,7 @@ static inline Extended extended_axis(Extended d, Extended sigma) {
 static inline void add_column(Pixels* pixels, ExtendedLanes column,
                               const __local ExtendedSplat* splat) {
   for (int c = 0; c < 3; ++c) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
     const ExtendedLanes depth = lanes_product(column, extended_pair(splat->summed[c]));
     const float8 emitted = high_lanes(column) * splat->emission[c].high;
     const float8 seen = transmittance(pixels->depth[c]) * precise_phi(high_lanes(depth));
@@ -124,7 +124,7 @@ static inline void fill_axis(__local Batch* batch, uint k, uint place, float cen
   batch->low[k * AXES + place] = low_part(value);
 #ifdef CUT_BY_AXES
   Extended offset = d;
-#ifdef ELLIPSES
+#if ELLIPSES
   // As far from the center as in the disc that the ellipse is made of.
   if (is_column) {
     offset =
@@ -156,7 +156,7 @@ static inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch
     square.low = batch->square_low[k * AXES + x + lane];
     inside[lane] =
         !extended_less(cut_square, extended_sum(extended_pair(square), extended_pair(row)));
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
     inside[lane] |= batch->holds[k * AXES + x + lane] && batch->holds[k * AXES + y];
 #endif
   }
@@ -166,7 +166,7 @@ static inline ExtendedLanes cut_column(ExtendedLanes column, const __local Batch
 }
 #endif
 
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 static inline Extended extended_square(Extended a) {
   return extended_product(a, a);
 }
@@ -194,7 +194,7 @@ static inline Extended extended_face_shape(const __local ExtendedSplat* splat, f
       extended_sum(extended_sum(extended_square(dx), extended_square(dy)), extended_square(turned));
   const Extended exponent =
       extended_quotient(extended_product(squared, extended_pair(splat->tilt.inverse_secant2)), m);
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   if (extended_less(extended_square(extended_pair(splat->cut)), exponent)) return extended_of(0.0f);
 #endif
   return extended_product(extended_exp(extended_negative(exponent)), extended_quotient(gk, m));
@@ -233,7 +233,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const uint count = min((uint)BATCH, segment.end - first);
     if (item < count) batch.splats[item] = extended_splats[entries[first + item].slot];
     barrier(CLK_LOCAL_MEM_FENCE);
-#ifndef FACE_OF_CUBE
+#if !FACE_OF_CUBE
     for (uint place = item; place < count * AXES; place += GROUP) {
       const uint axis = place % AXES;
       const float center = axis < TILE_WIDTH ? corner_x + (float)axis + 0.5f
@@ -244,7 +244,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
 #endif
     const uint x = item * 8 % TILE_WIDTH, y = TILE_WIDTH + item * 8 / TILE_WIDTH;
     for (uint k = 0; k < count; ++k) {
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
       const ExtendedLanes column = column_on_face(batch.splats + k, corner_x + (float)x,
                                                   corner_y + (float)(y - TILE_WIDTH), p.face);
 #else

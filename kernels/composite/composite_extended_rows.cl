@@ -17,7 +17,7 @@
 #pragma OPENCL FP_CONTRACT ON
 
 #define SUMS 3
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 #define TILE_PLANES 6
 #else
 #define TILE_PLANES 3
@@ -34,7 +34,7 @@ typedef struct Channel {
   double emission, summed;
 } Channel;
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 // The splat's layer behind what is already there: with u = t X phi(A X) light grows by E u, and the
 // transmittance t loses A u. Of layers of these depths and less phi(y) = (1 - exp(-y)) / y is taken
 // by three terms of its series, whose error is y^3 / 24, and by five, whose error is y^5 / 720.
@@ -97,7 +97,7 @@ static inline void add_splat(double* tile, __global const ExtendedSplat* from,
   const Channel red = {in_full(splat.emission[0]), in_full(splat.summed[0])};
   const Channel green = {in_full(splat.emission[1]), in_full(splat.summed[1])};
   const Channel blue = {in_full(splat.emission[2]), in_full(splat.summed[2])};
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   // No mean is more than 1, and none more than the light below a pixel.
   const double deepest = max(red.summed, max(green.summed, blue.summed));
   if (deepest <= THINNEST_LAYER) {
@@ -116,7 +116,7 @@ static inline void add_splat(double* tile, __global const ExtendedSplat* from,
 static inline void take_pixels(double* tile, const Pixels pixels) {
   for (int c = 0; c < SUMS; ++c) {
     store_doubles(pixels.light[c], tile + c * PLANE);
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
     store_doubles(exp_of_minus(min(pixels.depth[c], (double8)(690.0))), tile + (c + SUMS) * PLANE);
 #endif
   }
@@ -126,7 +126,7 @@ static inline Pixels give_pixels(const double* tile) {
   Pixels pixels;
   for (int c = 0; c < SUMS; ++c) {
     pixels.light[c] = load_doubles(tile + c * PLANE);
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
     const double8 passing = load_doubles(tile + (c + SUMS) * PLANE);
     pixels.depth[c] = -log(max(passing, (double8)(DARKEST)));
 #endif

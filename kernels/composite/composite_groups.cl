@@ -17,7 +17,7 @@
 #include "kernels/composite/tile_batch.cl"
 #include "kernels/extended/extended_splat.h"
 
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 #define TILE_PARAMETER , const TileOnFace* on_face
 #define TILE_ARGUMENT , &on_face
 #define TILE_PASSED , on_face
@@ -28,21 +28,21 @@
 #endif
 
 // Of an ellipse: a disc's pixels follow from two numbers (cut_of_axis()).
-#if defined(KERNEL_CUT) && defined(ELLIPSES) && !defined(FACE_OF_CUBE)
+#if KERNEL_CUT && ELLIPSES && !FACE_OF_CUBE
 static inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) {
   const float dx = (float)x + FIRST_X - splat->x - LOW_X(*splat);
   const float dy = (float)y + FIRST_Y - splat->y - LOW_Y(*splat);
   const float cut = cut_radius(splat->radius);
   const float round_dx = dx * (cut / cut_radius(splat->along_x.radius));
   int inside = round_dx * round_dx + dy * dy <= cut * cut;
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
   inside |= dx > -0.5f && dx <= 0.5f && dy > -0.5f && dy <= 0.5f;
 #endif
   return inside;
 }
 #endif
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 // As THIN_CHANNEL and LAYER_CHANNEL of composite_rows.cl.
 static inline void add_thin_channel(float* pixel, int c, float emission, float absorption,
                                     float shape, float half_square) {
@@ -74,7 +74,7 @@ INLINED void add_thin_splat(float* pixel, const __local float4* amplitudes, floa
 
 INLINED void add_splat(float* pixel, const __local float4* amplitudes, float shape,
                        const CompositeParameters p) {
-#ifndef KEEP_TRANSMITTANCE
+#if !KEEP_TRANSMITTANCE
   if (amplitudes[0].w <= p.phi_short) {
     add_thin_splat(pixel, amplitudes, shape);
     return;
@@ -97,7 +97,7 @@ INLINED void add_thin_splat(float* pixel, const __local float4* amplitudes, floa
 }
 #endif
 
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 INLINED float shape_at(const __local Batch* batch, const __local Listed* listed, uint k, uint x,
                        uint y TILE_PARAMETER) {
   const float dx = batch->axes[k * AXES + x], dy = batch->axes[k * AXES + TILE_WIDTH + y];
@@ -112,7 +112,7 @@ INLINED float shape_at(const __local Batch* batch, const __local Listed* listed,
 #ifdef CUT_BY_AXES
   return column.y <= row.y ? column.x * row.x : 0.0f;
 #else
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   if (!is_inside_cut(listed->splats + k, x, y)) return 0.0f;
 #endif
   return column * row;
@@ -124,8 +124,8 @@ INLINED float shape_at(const __local Batch* batch, const __local Listed* listed,
 INLINED void draw(float* pixel, const __local Batch* batch, const __local Listed* listed, uint bits,
                   uint x, uint y, const CompositeParameters p TILE_PARAMETER,
                   const TileClouds* clouds) {
-#ifdef LIGHT_ORDERED
-#ifdef KEEP_TRANSMITTANCE
+#if LIGHT_ORDERED
+#if KEEP_TRANSMITTANCE
   const int all_thin = 0;
 #else
   const int all_thin = (bits & bits_of_flags(&batch->thick)) == 0;
@@ -156,7 +156,7 @@ static inline void add_block(float* block, float* front) {
 // Whether a pixel lets anything through from behind: of a tile in which none does, the rest of the
 // list is not drawn.
 static inline int shows_behind(const float* front, float stop) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   for (int c = 3; c < PLANES; ++c) {
     if (transmittance_of(front[c]) > stop) return 1;
   }
@@ -190,7 +190,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   const CloudTables tables = {clouds, cloud_splats, directions, cones};
   TileClouds of_tile;
   if (CLOUDS_IN_LISTS) of_tile = clouds_of_tile(tables, grid, segment.tile);
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
   const TileOnFace on_face = tile_on_face(p.face, grid, segment.tile);
 #endif
   float front[PLANES], pixel[PLANES];

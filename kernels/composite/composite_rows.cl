@@ -3,7 +3,7 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 #include "kernels/common/lanes_of_16.cl"
 #endif
 #include "kernels/bin/bin.h"

@@ -8,10 +8,9 @@
 #include "kernels/composite/entry_windows.cl"
 #include "kernels/composite/narrow_splats.cl"
 
-#ifndef LIGHT_ORDERED
-#if LANES != 8 || ENTRIES_OF_GROUP != 64
-#error "kinds of entries are bits of bytes, and of a word"
-#endif
+#if !LIGHT_ORDERED
+// Kinds of entries are bits of bytes, and of a word.
+REQUIRE(kinds_in_bits, LANES == 8 && ENTRIES_OF_GROUP == 64);
 
 // What entries are drawn by. Numbers of four bytes alone, ROOM_OF_ENTRIES of each.
 typedef struct EntryGroup {

@@ -6,7 +6,7 @@
 #include "kernels/common/lanes.cl"
 #include "kernels/composite/rows.cl"
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 #define ROOM_OF_ENTRIES LANES
 #else
 #define ENTRIES_OF_GROUP 64
@@ -37,7 +37,7 @@ INLINED void fill_range(VALUE center, VALUE radius, float first_center, int size
 // Of eight entries, numbers `at` and on.
 INLINED void find_windows(const EntryLanes lanes, __global const TileSplat* entries, uint at,
                           EntryWindows* windows) {
-#ifdef ELLIPSES
+#if ELLIPSES
   const VALUE radius_x = OF_ENTRIES(entries, along_x.radius);
 #else
   const VALUE radius_x = lanes.radius;

@@ -17,7 +17,7 @@
 // the depth.
 typedef struct Pixels {
   ExtendedLanes light[3];
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   ExtendedLanes depth[3];
 #endif
 } Pixels;
@@ -33,7 +33,7 @@ static inline Pixels load_pixels(__global const float* planes, size_t plane) {
   Pixels pixels;
   for (int c = 0; c < 3; ++c) {
     pixels.light[c] = load_extended(planes + 2 * c * plane, plane);
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
     pixels.depth[c] = load_extended(planes + (2 * c + 6) * plane, plane);
 #endif
   }
@@ -42,7 +42,7 @@ static inline Pixels load_pixels(__global const float* planes, size_t plane) {
 static inline void store_pixels(const Pixels pixels, __global float* planes, size_t plane) {
   for (int c = 0; c < 3; ++c) {
     store_extended(pixels.light[c], planes + 2 * c * plane, plane);
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
     store_extended(pixels.depth[c], planes + (2 * c + 6) * plane, plane);
 #endif
   }
@@ -51,14 +51,14 @@ static inline Pixels no_pixels() {
   Pixels pixels;
   for (int c = 0; c < 3; ++c) {
     pixels.light[c] = lanes_pair((float8)(0.0f), (float8)(0.0f));
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
     pixels.depth[c] = pixels.light[c];
 #endif
   }
   return pixels;
 }
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 static inline float8 transmittance(ExtendedLanes depth) {
   return precise_exp_negative(high_lanes(depth), low_lanes(depth));
 }
@@ -88,7 +88,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join_extended(
     const Pixels behind = load_pixels(
         partials + (size_t)segments[s].partial * PLANES * TILE_PIXELS + item * 8, TILE_PIXELS);
     for (int c = 0; c < 3; ++c) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
       const float8 seen = transmittance(pixels.depth[c]);
       pixels.light[c] = lanes_sum(pixels.light[c], lanes_pair(high_lanes(behind.light[c]) * seen,
                                                               low_lanes(behind.light[c]) * seen));

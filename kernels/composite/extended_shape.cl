@@ -32,7 +32,7 @@ typedef struct ExtendedTile {
   CubeFace face;
 } ExtendedTile;
 
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 typedef struct ExtendedShape {
   PixelRange columns, rows;
   double x, y;                           // from the splat's center to the first pixel's
@@ -77,7 +77,7 @@ INLINED double8 shape_of_eight(const ExtendedShape* shape, const ShapeColumns co
   const double8 squared = (dx * dx + dy * dy) + turned * turned;
   const double8 exponent = squared * inverse * shape->inverse_secant2;
   const double8 value = exp_of_minus(min(exponent, (double8)(700.0))) * (gk * inverse);
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   return select((double8)(0.0), value, exponent <= shape->cut2);
 #else
   return value;
@@ -87,7 +87,7 @@ INLINED double8 shape_of_eight(const ExtendedShape* shape, const ShapeColumns co
 // A splat's shape along one axis of the tile, and what decides whether a pixel is in a cut disc.
 typedef struct Axis {
   double shape[TILE_WIDTH + 8];   // tiles are no higher than wide
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   double square[TILE_WIDTH + 8];  // of the distance
   long holds[TILE_WIDTH + 8];     // -1 where the pixel holds the center: it begins at its own edge
 #endif
@@ -110,7 +110,7 @@ static inline void fill_axis(Axis* axis, double corner, int size, FloatPair cent
   axis->range = pixels_of_axis(first, reach, size);
   if (axis->range.first > axis->range.last) return;
   const int begin = axis->range.first & ~7, end = (axis->range.last & ~7) + 8;
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
   if (are_wide_means(in_full(sigma), reach + 8.0)) {
     fill_wide_means(axis->shape, first, begin, end, in_full(sigma));
   } else if (sigma.high < 1e4f) {
@@ -122,7 +122,7 @@ static inline void fill_axis(Axis* axis, double corner, int size, FloatPair cent
     const double8 d = first + (double)k + ramp_of_eight();
     const double8 shape = vload8(0, axis->shape + k);
     vstore8(select(shape, (double8)(0.0), fabs(d) > reach), 0, axis->shape + k);
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
     vstore8((d * squeeze) * (d * squeeze), 0, axis->square + k);
     vstore8((d > -0.5) & (d <= 0.5), 0, axis->holds + k);
 #endif
@@ -139,7 +139,7 @@ typedef struct ExtendedShape {
 // Whether the splat reaches the tile.
 static inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
                               const ExtendedTile* of_tile) {
-#ifdef ELLIPSES
+#if ELLIPSES
   const double squeeze = in_full(splat->sigma) / in_full(splat->along_x.sigma);
 #else
   const double squeeze = 1.0;
@@ -159,7 +159,7 @@ static inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
 // What eight columns of pixels share.
 typedef struct ShapeColumns {
   double8 shape;
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   double8 square;
   long8 holds;
 #endif
@@ -168,7 +168,7 @@ typedef struct ShapeColumns {
 INLINED ShapeColumns shape_columns(const ExtendedShape* shape, int first) {
   ShapeColumns columns;
   columns.shape = vload8(0, shape->along_x.shape + first);
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   columns.square = vload8(0, shape->along_x.square + first);
   columns.holds = vload8(0, shape->along_x.holds + first);
 #endif
@@ -178,9 +178,9 @@ INLINED ShapeColumns shape_columns(const ExtendedShape* shape, int first) {
 // Zero outside the cut.
 INLINED double8 shape_of_eight(const ExtendedShape* shape, const ShapeColumns columns, int row) {
   const double8 product = columns.shape * shape->along_y.shape[row];
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   long8 inside = columns.square + shape->along_y.square[row] <= shape->cut_square;
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
   inside |= columns.holds & (long8)(shape->along_y.holds[row]);
 #endif
   return select((double8)(0.0), product, inside);

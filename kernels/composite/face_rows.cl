@@ -30,7 +30,7 @@ static inline void fill_rows(float* values, const Window* window, __global const
 }
 
 // As in splat_rows.cl.
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 static inline int form_of_splat(__global const TileSplat* splat, const SplatTile* of_tile,
                                 float* depth_of_block, const CompositeParameters* p) {
   const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2]));

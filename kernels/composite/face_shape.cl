@@ -7,7 +7,7 @@
 #include "kernels/composite/composite.h"
 #include "kernels/composite/gaussian.cl"
 
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 
 // Where a tile's pixels lie on the face.
 typedef struct TileOnFace {
@@ -35,7 +35,7 @@ INLINED VALUE face_shape(const Tilt tilt, VALUE dx, float dy, VALUE x, float y, 
   const VALUE squared = (dx * dx + dy * dy) + turned * turned;
   const VALUE exponent = squared * inverse * tilt.inverse_secant2;
   const VALUE shape = exp2_negative(-exponent) * (tilt.scale * k * inverse);
-#ifdef KERNEL_CUT
+#if KERNEL_CUT
   return choose((VALUE)(0.0f), shape, exponent <= cut2);
 #else
   return shape;

@@ -19,11 +19,7 @@ OVERLOADED static inline VALUE exp2_to_five_digits(VALUE f) {
   return p * f + 0.999999261f;
 }
 
-#ifdef FULL_PRECISION
-#define exp2_of_fraction exp2_to_all_digits
-#else
-#define exp2_of_fraction exp2_to_five_digits
-#endif
+#define exp2_of_fraction(x) (FULL_PRECISION ? exp2_to_all_digits(x) : exp2_to_five_digits(x))
 
 // 1.5 * 2^23: added to a number, it rounds it to an integer and leaves it in the low bits, from
 // where it becomes an exponent.
@@ -86,8 +82,4 @@ OVERLOADED static inline VALUE erf_to_all_digits(VALUE x) {
   return x * p;
 }
 
-#ifdef FULL_PRECISION
-#define error_function erf_to_all_digits
-#else
-#define error_function erf_to_five_digits
-#endif
+#define error_function(x) (FULL_PRECISION ? erf_to_all_digits(x) : erf_to_five_digits(x))

@@ -4,7 +4,7 @@
 
 static inline void join_pixels(__global float* planes, size_t plane, __global const float* partial,
                                size_t pixel) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   for (int c = 0; c < 3; ++c) {
     __global float* source = planes + (size_t)c * plane;
     __global float* opacity = planes + (size_t)(c + 3) * plane;

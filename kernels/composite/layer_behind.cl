@@ -3,7 +3,7 @@
 #include "kernels/composite/opacity.cl"
 
 static inline void add_layer(float* front, const float* layer) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   for (int c = 0; c < 3; ++c) {
     const float transmittance = transmittance_of(front[c + 3]);
     front[c] += transmittance * layer[c];

@@ -10,12 +10,11 @@
 #include "kernels/composite/rows.cl"
 #include "kernels/composite/shape.cl"
 #include "kernels/composite/waiting.cl"
-#ifndef FACE_OF_CUBE
+#if !FACE_OF_CUBE
 #include "kernels/composite/splat_rows.cl"
 #endif
 
-#if !defined(KERNEL_CUT) && !defined(ELLIPSES) && !defined(FACE_OF_CUBE) && \
-    !defined(FINE_PLACES) && SUMMED == 3
+#if !KERNEL_CUT && !ELLIPSES && !FACE_OF_CUBE && !FINE_PLACES && SUMMED == 3
 #define NARROW_SPLATS
 
 // Pixels along both axes of those that are taken as means over pixels, of which an eight of edges
@@ -26,12 +25,10 @@
 // Of those that are taken at pixels' centers, two eights of these.
 #define SIXTEEN 16
 // Where WIDEST_ALONE is less, all beyond seven pixels wait (waiting.cl).
-#if WIDEST_ALONE == SIXTEEN
-#define MIDDLE_SPLATS
-#endif
+#define MIDDLE_SPLATS (WIDEST_ALONE == SIXTEEN)
 
 // Of windows up to so many pixels all rows are drawn, whether a splat touches them or not.
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 #define WHOLE_WINDOW GRAIN
 #else
 #define WHOLE_WINDOW SEVEN
@@ -52,7 +49,7 @@ typedef struct NarrowSplats {
 
 INLINED INTEGER narrow_windows(VALUE sigma, INTEGER pixels, float mean_sigma) {
   const INTEGER of_means = select((INTEGER)(SEVEN), (INTEGER)(GRAIN), pixels <= GRAIN);
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
   const INTEGER wider = select((INTEGER)(SIXTEEN), (INTEGER)(FIFTEEN), sigma < mean_sigma);
   const INTEGER found = select(wider, of_means, pixels <= SEVEN & sigma < mean_sigma);
   return found & (sigma > 0.0f) & (pixels <= wider);
@@ -105,7 +102,7 @@ INLINED TwoEights grain_means(float across, float along, float per_sigma) {
 
 // Means between the edges of seven pixels along both axes, the first of which are so many pixels
 // from the center; the eighths are 0.
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 INLINED TwoEights halves_of(float16 numbers) {
   TwoEights halves;
   halves.first = numbers.lo;
@@ -131,10 +128,10 @@ INLINED TwoEights seven_means_of_axes(float across, float along, float per_sigma
 }
 #endif
 
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
 // The same between fifteen along one axis, the sixteenth of which is 0, and values at sixteen
 // centers.
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 INLINED TwoEights fifteen_means(float first, float per_sigma) {
   const float16 within = error_function((first + PATCH_LANES) * per_sigma);
   return halves_of(within.s123456789abcdeff - within);
@@ -177,7 +174,7 @@ INLINED void fill_middle(const NarrowSplats* narrow, int i, TwoEights* across, T
 }
 #endif
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 // Draws it in one window of eight columns, or two.
 INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
                               __global const TileSplat* splat, int form) {
@@ -189,7 +186,7 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
     across.first = axes.first * narrow->scale[i];
     along.first = axes.second;
   }
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
   else if (pixels > SEVEN) {
     fill_middle(narrow, i, &across, &along);
   }
@@ -208,7 +205,7 @@ INLINED void add_narrow_splat(float* tile, const NarrowSplats* narrow, int i,
   window.y = narrow->y[i];
   window.rows = pixels == GRAIN ? GRAIN : narrow->rows[i];
   update_window(tile, &window, across.first, of_rows, splat, form);
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
   if (pixels <= SEVEN || narrow->columns[i] <= 8) return;
   window.x += 8;
   update_window(tile, &window, across.second, of_rows, splat, form);
@@ -256,8 +253,8 @@ INLINED void add_seven(float* tile, const NarrowSplats* narrow, int i,
     ADD_ROW
 }
 
-#ifdef MIDDLE_SPLATS
-#ifdef ROWS_OF_16
+#if MIDDLE_SPLATS
+#if ROWS_OF_16
 #define MIDDLE_CHANNEL(c) const float16 light##c = sixteen * splat->summed[c]
 #define ADD_MIDDLE(c)                                     \
   {                                                       \
@@ -284,7 +281,7 @@ INLINED void add_middle_splat(float* tile, const NarrowSplats* narrow, int i,
   float rows[16];
   store_eight(along.first, rows);
   store_eight(along.second, rows + 8);
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
   const float16 sixteen = (float16)(across.first, across.second);
 #endif
   MIDDLE_CHANNEL(0);

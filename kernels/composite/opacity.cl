@@ -4,7 +4,7 @@
 // to 1, minus the transmittance from an opacity of one half on: it keeps its own digits.
 #include "kernels/common/common.cl"
 
-#ifdef KEEP_TRANSMITTANCE
+#if KEEP_TRANSMITTANCE
 OVERLOADED static inline VALUE opacity_of(VALUE carried) {
   return carried + select((VALUE)(0.0f), (VALUE)(1.0f), carried < 0.0f);
 }

@@ -14,13 +14,13 @@
 #include "kernels/composite/stencil.cl"
 #include "kernels/composite/tile_planes.cl"
 #include "kernels/composite/waiting.cl"
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 #include "kernels/composite/face_rows.cl"
 #else
 #include "kernels/composite/splat_rows.cl"
 #endif
 
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 
 static inline void load_opacities(float* tile, const TileInPlanes* place) {
   for (int c = SUMS; c < PLANES; ++c) {

@@ -5,7 +5,7 @@
 #include "kernels/composite/rows.cl"
 
 // As wide as registers are, and with as many rows as leave some of them for a splat.
-#ifdef ROWS_OF_16
+#if ROWS_OF_16
 #ifdef __clang__
 typedef float16 __attribute__((aligned(4))) Sixteen;
 #define load_patch(p) (*(const Sixteen*)(p))
@@ -27,19 +27,12 @@ typedef float16 __attribute__((aligned(4))) Sixteen;
 #define store_patch store_eight
 #endif
 
-#ifndef FACE_OF_CUBE
-#if PLANES == 6
-#define PATCH_HEIGHT (PATCH_WIDTH / 4)
-#else
-#define PATCH_HEIGHT (PATCH_WIDTH / 2)
-#endif
-#if TILE_WIDTH % PATCH_WIDTH != 0 || TILE_HEIGHT % PATCH_WIDTH != 0
-#error "a tile is not made of whole patches"
-#endif
+#define PATCH_HEIGHT (PLANES == 6 ? PATCH_WIDTH / 4 : PATCH_WIDTH / 2)
+REQUIRE(whole_patches, TILE_WIDTH % PATCH_WIDTH == 0 && TILE_HEIGHT % PATCH_WIDTH == 0);
 
 // A bit of a word for each. The more there are, the less often patches are loaded and stored, and
 // loops over a patch's splats end; layers in registers of sixteen took longer with 64.
-#if !defined(LIGHT_ORDERED) || !defined(ROWS_OF_16)
+#if !LIGHT_ORDERED || !ROWS_OF_16
 #define MOST_SHAPES 64
 typedef ulong ShapeBits;
 #else
@@ -50,14 +43,12 @@ typedef uint ShapeBits;
 // What the shapes of splats along one axis of the tile follow from.
 typedef struct AxisOfSplats {
   float place[MOST_SHAPES];  // of the center
-#ifdef FINE_PLACES
+#if FINE_PLACES
   float low[MOST_SHAPES];  // what is to be added to it
 #endif
   float sigma[MOST_SHAPES], factor[MOST_SHAPES];  // as factor_of() has it
   ShapeBits means;                                // those that are taken as means over pixels
-#ifndef CUT_BY_ROWS
-  float first[MOST_SHAPES], last[MOST_SHAPES];  // pixels that are drawn
-#endif
+  float first[MOST_SHAPES], last[MOST_SHAPES];    // pixels that are drawn, where rows are not cut
 } AxisOfSplats;
 
 // The number of the first of `splats`, of which there are some, and those without it.
@@ -69,9 +60,8 @@ INLINED ShapeBits without_first(ShapeBits splats) {
 }
 
 // Of centers of pixels from that of splat k, along an axis.
-#ifdef FINE_PLACES
+#if FINE_PLACES
 #define DISTANCE_ALONG(axis, k, centers) ((centers) - (axis)->place[k] - (axis)->low[k])
 #else
 #define DISTANCE_ALONG(axis, k, centers) ((centers) - (axis)->place[k])
-#endif
 #endif

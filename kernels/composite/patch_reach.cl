@@ -4,15 +4,13 @@
 #include "kernels/composite/patch.cl"
 #include "kernels/composite/rows.cl"
 
-#ifndef FACE_OF_CUBE
 #define PATCH_COLUMNS (TILE_WIDTH / PATCH_WIDTH)
 #define PATCH_ROWS (TILE_HEIGHT / PATCH_HEIGHT)
 
 // Only a part of the patches of a disc's square are the disc's.
-#ifdef CUT_BY_ROWS
-#if PATCH_COLUMNS > 8 || MOST_SHAPES % 32 != 0
-#error "columns of patches and words of splats are taken in eights and whole words"
-#endif
+#if CUT_BY_ROWS
+// Columns of patches and words of splats are taken in eights and whole words.
+REQUIRE(columns_in_eights, PATCH_COLUMNS <= 8 && MOST_SHAPES % 32 == 0);
 
 // Bits of 32 splats in each word; words of eight rows are together.
 #define WORDS_OF_SPLATS (MOST_SHAPES / 32)
@@ -28,7 +26,7 @@ static inline void clear_reach(PatchReach* reach) {
 }
 
 // The pixel that holds the center of a splat keeps its light, however far its own center is.
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
 #define BESIDE_PIXEL 0.5f
 #else
 #define BESIDE_PIXEL 0.0f
@@ -63,11 +61,10 @@ INLINED void put_reach(PatchReach* reach, uint number, const AxisOfSplats* x, co
 
 // Those that touch a patch.
 INLINED ShapeBits splats_of_patch(const PatchReach* reach, int column, int row) {
-  ShapeBits splats = reach->touched[0][column][row];
-#if WORDS_OF_SPLATS == 2
-  splats |= (ShapeBits)reach->touched[1][column][row] << 32;
-#endif
-  return splats;
+  const ShapeBits first = reach->touched[0][column][row];
+  if (WORDS_OF_SPLATS == 1) return first;
+  const int last = WORDS_OF_SPLATS - 1;
+  return first | (ShapeBits)reach->touched[last][column][row] << 32 * last;
 }
 
 INLINED ShapeBits splats_of_column(const PatchReach* reach, int column) {
@@ -112,5 +109,4 @@ INLINED ShapeBits splats_of_column(const PatchReach* reach, int column) {
 INLINED ShapeBits splats_of_row(const PatchReach* reach, int row) {
   return reach->of_rows[row];
 }
-#endif
 #endif

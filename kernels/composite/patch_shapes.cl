@@ -11,25 +11,12 @@
 #include "kernels/composite/rows.cl"
 #include "kernels/composite/shape.cl"
 
-#ifndef FACE_OF_CUBE
-
 typedef struct PatchShapes {
   AxisOfSplats x, y;
-#ifdef CUT_BY_ROWS
-  float cut2[MOST_SHAPES];
-#ifdef ELLIPSES
-  float squeeze[MOST_SHAPES];
-#endif
-#endif
-  float light[MOST_SHAPES * PLANES];  // what is summed, or E and A
+  float cut2[MOST_SHAPES], squeeze[MOST_SHAPES];  // where rows are cut
+  float light[MOST_SHAPES * PLANES];              // what is summed, or E and A
   PatchReach reach;
 } PatchShapes;
-
-#ifdef ELLIPSES
-#define SQUEEZE_OF(shapes, k) (shapes)->squeeze[k]
-#else
-#define SQUEEZE_OF(shapes, k) 1.0f
-#endif
 
 // Rows of a tile, one splat's behind the other's.
 #define ALL_ROWS (MOST_SHAPES * TILE_HEIGHT)
@@ -39,50 +26,39 @@ typedef struct PatchShapes {
 typedef struct PatchValues {
   float along[ALL_ROWS];
   float across[MOST_SHAPES * PATCH_WIDTH];
-#ifdef CUT_BY_ROWS
-  float squares[MOST_SHAPES * PATCH_WIDTH];  // of distances along columns
+  float squares[MOST_SHAPES * PATCH_WIDTH];  // of distances along columns, where rows are cut
   float limits[ALL_ROWS];                    // as fill_limits() has them
-#endif
 } __attribute__((aligned(64))) PatchValues;
 
 // Limits cut more than the square.
-#ifdef CUT_BY_ROWS
-#define WITHIN_SQUARE(shape, pixels, axis, k) (shape)
-#else
-#define WITHIN_SQUARE(shape, pixels, axis, k) \
-  select(shape, (PATCH)(0.0f), ((pixels) < (axis)->first[k]) | ((pixels) > (axis)->last[k]))
-#endif
+INLINED PATCH within_square(PATCH shape, PATCH pixels, const AxisOfSplats* axis, uint k) {
+  if (CUT_BY_ROWS) return shape;
+  return select(shape, (PATCH)(0.0f), (pixels < axis->first[k]) | (pixels > axis->last[k]));
+}
 
 // The shape of splat k along an axis, at these pixels of the tile, `d` from its center.
 INLINED PATCH center_values_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH d) {
-  return WITHIN_SQUARE(exp2_negative(d * d * axis->factor[k]), pixels, axis, k);
+  return within_square(exp2_negative(d * d * axis->factor[k]), pixels, axis, k);
 }
 INLINED PATCH means_along(const AxisOfSplats* axis, uint k, PATCH pixels, PATCH d) {
   const float factor = axis->factor[k];
   const PATCH mean = error_function((d + 0.5f) * factor) - error_function((d - 0.5f) * factor);
-  return WITHIN_SQUARE(mean * (PIXEL_MEAN_SCALE * axis->sigma[k]), pixels, axis, k);
+  return within_square(mean * (PIXEL_MEAN_SCALE * axis->sigma[k]), pixels, axis, k);
 }
 
 // What limits are held against: the square of the distance along columns, as a disc has it.
-#ifdef CUT_BY_ROWS
 INLINED PATCH square_of_disc(PATCH d, float squeeze) {
   return SQUEEZED(d) * SQUEEZED(d);
 }
-#endif
 
 // Center values and means have loops of their own, whose constants stay in registers.
-#define EACH_ACROSS(chosen, shape_along)                                     \
-  for (ShapeBits left = (chosen); left != 0; left = without_first(left)) {   \
-    const uint k = first_of(left), at = k * PATCH_WIDTH;                     \
-    const PATCH d = DISTANCE_ALONG(&shapes->x, k, centers);                  \
-    store_patch(shape_along(&shapes->x, k, pixels, d), values->across + at); \
-    PUT_SQUARES                                                              \
+#define EACH_ACROSS(chosen, shape_along)                                                       \
+  for (ShapeBits left = (chosen); left != 0; left = without_first(left)) {                     \
+    const uint k = first_of(left), at = k * PATCH_WIDTH;                                       \
+    const PATCH d = DISTANCE_ALONG(&shapes->x, k, centers);                                    \
+    store_patch(shape_along(&shapes->x, k, pixels, d), values->across + at);                   \
+    if (CUT_BY_ROWS) store_patch(square_of_disc(d, shapes->squeeze[k]), values->squares + at); \
   }
-#ifdef CUT_BY_ROWS
-#define PUT_SQUARES store_patch(square_of_disc(d, SQUEEZE_OF(shapes, k)), values->squares + at);
-#else
-#define PUT_SQUARES
-#endif
 INLINED void fill_across(const PatchShapes* shapes, ShapeBits splats, int x, PATCH lanes,
                          PatchValues* values) {
   const PATCH pixels = (float)x + lanes, centers = pixels + FIRST_X;
@@ -91,18 +67,13 @@ INLINED void fill_across(const PatchShapes* shapes, ShapeBits splats, int x, PAT
 }
 
 // Of as many rows from `y` on as a register holds.
-#define EACH_ALONG(chosen, shape_along)                                     \
-  for (ShapeBits left = (chosen); left != 0; left = without_first(left)) {  \
-    const uint k = first_of(left), at = k * TILE_HEIGHT + (uint)y;          \
-    const PATCH d = DISTANCE_ALONG(&shapes->y, k, centers);                 \
-    store_patch(shape_along(&shapes->y, k, pixels, d), values->along + at); \
-    PUT_LIMITS                                                              \
+#define EACH_ALONG(chosen, shape_along)                                         \
+  for (ShapeBits left = (chosen); left != 0; left = without_first(left)) {      \
+    const uint k = first_of(left), at = k * TILE_HEIGHT + (uint)y;              \
+    const PATCH d = DISTANCE_ALONG(&shapes->y, k, centers);                     \
+    store_patch(shape_along(&shapes->y, k, pixels, d), values->along + at);     \
+    if (CUT_BY_ROWS) store_patch(shapes->cut2[k] - d * d, values->limits + at); \
   }
-#ifdef CUT_BY_ROWS
-#define PUT_LIMITS store_patch(shapes->cut2[k] - d * d, values->limits + at);
-#else
-#define PUT_LIMITS
-#endif
 INLINED void fill_along(const PatchShapes* shapes, ShapeBits splats, int y, PATCH lanes,
                         PatchValues* values) {
   const PATCH pixels = (float)y + lanes, centers = pixels + FIRST_Y;
@@ -112,7 +83,7 @@ INLINED void fill_along(const PatchShapes* shapes, ShapeBits splats, int y, PATC
 
 // Written out: compilers leave loops as they are.
 INLINED void put_light(float* light, __global const TileSplat* splat) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   light[0] = splat->emission[0];
   light[1] = splat->emission[1];
   light[2] = splat->emission[2];
@@ -139,16 +110,14 @@ INLINED float factor_of(float sigma, float mean_sigma) {
 INLINED void put_axis(AxisOfSplats* axis, uint number, float place, float low, float sigma,
                       float factor, int is_mean, int2 pixels) {
   axis->place[number] = place;
-#ifdef FINE_PLACES
+#if FINE_PLACES
   axis->low[number] = low;
 #endif
   axis->sigma[number] = sigma;
   axis->factor[number] = factor;
   axis->means |= (ShapeBits)is_mean << number;
-#ifndef CUT_BY_ROWS
   axis->first[number] = (float)pixels.x;
   axis->last[number] = (float)pixels.y;
-#endif
 }
 
 // The splat of this number, which touches `rows` and `columns` of the tile.
@@ -156,28 +125,22 @@ INLINED void put_splat(PatchShapes* shapes, uint number, int2 rows, int2 columns
                        __global const TileSplat* splat, float mean_sigma) {
   const float sigma = splat->sigma, factor = factor_of(sigma, mean_sigma);
   const int is_mean = sigma < mean_sigma;
-#ifdef ELLIPSES
-  const float sigma_x = SIGMA_X(*splat), factor_x = factor_of(sigma_x, mean_sigma);
+  const float sigma_x = SIGMA_X(*splat);
+  const float factor_x = ELLIPSES ? factor_of(sigma_x, mean_sigma) : factor;
   const int is_mean_x = sigma_x < mean_sigma;
-#else
-  const float sigma_x = sigma, factor_x = factor;
-  const int is_mean_x = is_mean;
-#endif
   put_axis(&shapes->x, number, splat->x, LOW_X(*splat), sigma_x, factor_x, is_mean_x, columns);
   put_axis(&shapes->y, number, splat->y, LOW_Y(*splat), sigma, factor, is_mean, rows);
-#ifdef CUT_BY_ROWS
+#if CUT_BY_ROWS
   shapes->cut2[number] = cut_radius(splat->radius) * cut_radius(splat->radius);
-#ifdef ELLIPSES
-  shapes->squeeze[number] = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
-#endif
+  shapes->squeeze[number] =
+      ELLIPSES ? cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat)) : 1.0f;
 #endif
   put_light(shapes->light + number * PLANES, splat);
-#ifdef CUT_BY_ROWS
+#if CUT_BY_ROWS
   put_reach(&shapes->reach, number, &shapes->x, &shapes->y, shapes->cut2[number],
-            SQUEEZE_OF(shapes, number));
+            shapes->squeeze[number]);
 #else
   set_bits(shapes->reach.of_columns, PATCH_COLUMNS, columns, PATCH_WIDTH, (ShapeBits)1 << number);
   set_bits(shapes->reach.of_rows, PATCH_ROWS, rows, PATCH_HEIGHT, (ShapeBits)1 << number);
 #endif
 }
-#endif

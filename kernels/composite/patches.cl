@@ -7,116 +7,79 @@
 #include "kernels/composite/patch_shapes.cl"
 #include "kernels/composite/rows.cl"
 
-#ifndef FACE_OF_CUBE
-
 // Bits of the splats whose layers take more than one term, and of those that take three.
 typedef struct LayerForms {
   ShapeBits more_terms, three_terms;
 } LayerForms;
 
-// Light, and behind it opacities in order.
-typedef struct PatchRow {
-  PATCH plane0, plane1, plane2;
 #if PLANES == 6
-  PATCH plane3, plane4, plane5;
+#define EACH_PLANE(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5)
+#else
+#define EACH_PLANE(DO) DO(0) DO(1) DO(2)
 #endif
+
+// Light, and behind it opacities in order; of PLANES planes.
+typedef struct PatchRow {
+  PATCH plane0, plane1, plane2, plane3, plane4, plane5;
 } PatchRow;
 
+#define LOAD_PLANE(c) row.plane##c = load_patch(pixel + c * TILE_PIXELS);
+#define STORE_PLANE(c) store_patch(row.plane##c, pixel + c * TILE_PIXELS);
 INLINED PatchRow load_patch_row(const float* pixel) {
   PatchRow row;
-  row.plane0 = load_patch(pixel);
-  row.plane1 = load_patch(pixel + TILE_PIXELS);
-  row.plane2 = load_patch(pixel + 2 * TILE_PIXELS);
-#if PLANES == 6
-  row.plane3 = load_patch(pixel + 3 * TILE_PIXELS);
-  row.plane4 = load_patch(pixel + 4 * TILE_PIXELS);
-  row.plane5 = load_patch(pixel + 5 * TILE_PIXELS);
-#endif
+  EACH_PLANE(LOAD_PLANE)
   return row;
 }
-
 INLINED void store_patch_row(const PatchRow row, float* pixel) {
-  store_patch(row.plane0, pixel);
-  store_patch(row.plane1, pixel + TILE_PIXELS);
-  store_patch(row.plane2, pixel + 2 * TILE_PIXELS);
-#if PLANES == 6
-  store_patch(row.plane3, pixel + 3 * TILE_PIXELS);
-  store_patch(row.plane4, pixel + 4 * TILE_PIXELS);
-  store_patch(row.plane5, pixel + 5 * TILE_PIXELS);
-#endif
+  EACH_PLANE(STORE_PLANE)
 }
 
 // A splat in the columns of a patch.
 typedef struct PatchSplat {
-#ifdef LIGHT_ORDERED
   PATCH across;
-  const float* light;
-#else
-  PATCH light0, light1, light2;
-#if PLANES == 6
-  PATCH light3, light4, light5;
-#endif
-#endif
-  const float* along;
-#ifdef CUT_BY_ROWS
-  PATCH square;
+  const float *along, *light;
+  PATCH light0, light1, light2, light3, light4, light5;  // of sums, in these columns
+  // Where the kernel is cut.
+  PATCH square, dx;
   const float* limits;
-#ifdef SAMPLING_MEAN
-  PATCH dx;
   float dy;  // of the first row
-#endif
-#endif
 } PatchSplat;
 
+#define PUT_LIGHT(c) splat.light##c = splat.across * splat.light[c];
 INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* values, uint k,
                                   int x, int y, PATCH lanes) {
   PatchSplat splat;
-  const PATCH across = load_patch(values->across + k * PATCH_WIDTH);
+  splat.across = load_patch(values->across + k * PATCH_WIDTH);
   splat.along = values->along + (size_t)k * TILE_HEIGHT + y;
-#ifdef LIGHT_ORDERED
-  splat.across = across;
   splat.light = shapes->light + k * PLANES;
-#else
-  splat.light0 = across * shapes->light[k * PLANES];
-  splat.light1 = across * shapes->light[k * PLANES + 1];
-  splat.light2 = across * shapes->light[k * PLANES + 2];
-#if PLANES == 6
-  splat.light3 = across * shapes->light[k * PLANES + 3];
-  splat.light4 = across * shapes->light[k * PLANES + 4];
-  splat.light5 = across * shapes->light[k * PLANES + 5];
-#endif
-#endif
-#ifdef CUT_BY_ROWS
-  splat.square = load_patch(values->squares + k * PATCH_WIDTH);
-  splat.limits = values->limits + (size_t)k * TILE_HEIGHT + y;
-#ifdef SAMPLING_MEAN
-  splat.dx = DISTANCE_ALONG(&shapes->x, k, ((float)x + FIRST_X) + lanes);
-  splat.dy = (float)y + FIRST_Y - shapes->y.place[k];
-#endif
-#endif
+  if (!LIGHT_ORDERED) {
+    EACH_PLANE(PUT_LIGHT)
+  }
+  if (CUT_BY_ROWS) {
+    splat.square = load_patch(values->squares + k * PATCH_WIDTH);
+    splat.limits = values->limits + (size_t)k * TILE_HEIGHT + y;
+    splat.dx = DISTANCE_ALONG(&shapes->x, k, ((float)x + FIRST_X) + lanes);
+    splat.dy = (float)y + FIRST_Y - shapes->y.place[k];
+  }
   return splat;
 }
 
-// Of the pixels of row k, those that the kernel is not cut at.
-#ifndef CUT_BY_ROWS
-#define WHERE_DRAWN(splat, k, drawn, otherwise) (drawn)
-#else
-#ifdef SAMPLING_MEAN
-// The pixel that holds the center keeps its light.
-#define OR_HOLDS_CENTER(splat, k)                                                             \
-  | (((splat).dx > -0.5f) & ((splat).dx <= 0.5f) &                                            \
-     (PATCH_INTEGERS)((splat).dy + (float)(k) > -0.5f && (splat).dy + (float)(k) <= 0.5f ? -1 \
-                                                                                         : 0))
-#else
-#define OR_HOLDS_CENTER(splat, k)
-#endif
-#define WHERE_DRAWN(splat, k, drawn, otherwise) \
-  select(otherwise, drawn, ((splat).square <= (splat).limits[k]) OR_HOLDS_CENTER(splat, k))
-#endif
+// Of means the pixel that holds the center keeps its light.
+INLINED PATCH_INTEGERS holds_center(const PatchSplat splat, int k) {
+  const float dy = splat.dy + (float)k;
+  return (splat.dx > -0.5f) & (splat.dx <= 0.5f) &
+         (PATCH_INTEGERS)(dy > -0.5f && dy <= 0.5f ? -1 : 0);
+}
 
-#ifdef LIGHT_ORDERED
+// Of the pixels of row k, those that the kernel is not cut at.
+INLINED PATCH where_drawn(const PatchSplat splat, int k, PATCH drawn, PATCH otherwise) {
+  if (!CUT_BY_ROWS) return drawn;
+  const PATCH_INTEGERS within = splat.square <= splat.limits[k];
+  return select(otherwise, drawn, SAMPLING_MEAN ? within | holds_center(splat, k) : within);
+}
+
 INLINED PATCH shape_in_row(const PatchSplat splat, int k) {
-  return WHERE_DRAWN(splat, k, NOT_NEGATIVE(splat.across * splat.along[k]), (PATCH)(0.0f));
+  return where_drawn(splat, k, NOT_NEGATIVE(splat.across * splat.along[k]), (PATCH)(0.0f));
 }
 
 // A layer as THIN_LAYER() (rows.cl) has it: channel c's light and opacity are planes c and `o`.
@@ -145,30 +108,22 @@ INLINED PatchRow add_three_terms(PatchRow row, const PatchSplat splat, int k) {
   PATCH_CHANNELS(COVERED_BY_THREE_TERMS)
   return row;
 }
-#else
-#if PLANES == 6
-#define EACH_PLANE(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5)
-#else
-#define EACH_PLANE(DO) DO(0) DO(1) DO(2)
-#endif
+
 #define ADD_TO_PLANE(c) row.plane##c += splat.light##c * along;
-// Additions take a mask where registers of sixteen are; elsewhere one mask serves all planes.
-#ifdef ROWS_OF_16
 #define ADD_TO_PLANE_WHERE_DRAWN(c) \
-  row.plane##c = WHERE_DRAWN(splat, k, row.plane##c + splat.light##c * along, row.plane##c);
+  row.plane##c = where_drawn(splat, k, row.plane##c + splat.light##c * along, row.plane##c);
+// Additions take a mask where registers of sixteen are; elsewhere one mask serves all planes.
 INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
-  const PATCH along = splat.along[k];
-  EACH_PLANE(ADD_TO_PLANE_WHERE_DRAWN)
+  const PATCH all = splat.along[k];
+  if (ROWS_OF_16) {
+    const PATCH along = all;
+    EACH_PLANE(ADD_TO_PLANE_WHERE_DRAWN)
+  } else {
+    const PATCH along = where_drawn(splat, k, all, (PATCH)(0.0f));
+    EACH_PLANE(ADD_TO_PLANE)
+  }
   return row;
 }
-#else
-INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
-  const PATCH along = WHERE_DRAWN(splat, k, (PATCH)(splat.along[k]), (PATCH)(0.0f));
-  EACH_PLANE(ADD_TO_PLANE)
-  return row;
-}
-#endif
-#endif
 
 // The rows of a patch, written out, since compilers keep arrays in memory.
 #if PATCH_HEIGHT == 8
@@ -206,15 +161,13 @@ INLINED void add_to_patch(float* tile, int x, int y, const PatchShapes* shapes,
   if (splats == 0) return;
   float* pixel = tile + y * ROW + x;
   EACH_ROW(LOAD_ROW_OF_PATCH)
-#ifdef LIGHT_ORDERED
-  if ((splats & forms.more_terms) == 0) {
+  if (!LIGHT_ORDERED) {
+    ADD_EACH_SPLAT(EACH_ROW(ADD_TO_SUMS))
+  } else if ((splats & forms.more_terms) == 0) {
     ADD_EACH_SPLAT(EACH_ROW(ADD_ONE_TERM))
   } else {
     ADD_EACH_SPLAT(ADD_AS_FORMS_ARE)
   }
-#else
-  ADD_EACH_SPLAT(EACH_ROW(ADD_TO_SUMS))
-#endif
   EACH_ROW(STORE_ROW_OF_PATCH)
 }
 
@@ -242,4 +195,3 @@ __attribute__((noinline)) static void add_to_patches(float* tile, const PatchSha
       add_to_patch(tile, x, y, shapes, &values, forms, lanes);
   }
 }
-#endif

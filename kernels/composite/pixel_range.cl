@@ -19,7 +19,7 @@ INLINED int2 pixel_range(float center, float radius, float first_center, int siz
 
 // The radius of a cut disc: the drawn one, less the half pixel of pixel means.
 static inline float cut_radius(float radius) {
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
   return radius - 0.5f;
 #else
   return radius;

@@ -23,7 +23,7 @@
 #define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
 #define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
 // Shapes of a splat on a face of a cube come row by row, and cut (face_rows.cl).
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 #define SHAPE_OF_ROW(k) load_eight(along + 8 * (k))
 #else
 #define SHAPE_OF_ROW(k) (across * along[k])
@@ -34,21 +34,15 @@ static inline float inverse_of(float sigma) {
   return 1.44269504f / (sigma * sigma);
 }
 
-#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE)
-#define CUT_BY_ROWS
-#endif
+#define CUT_BY_ROWS (KERNEL_CUT && !FACE_OF_CUBE)
 // Where values along y are, those of rows are followed by how far from the center columns may lie
 // in each at most, squared: along[LIMITS + k] of row k.
 #define LIMITS (TILE_HEIGHT + 16)
-#ifdef CUT_BY_ROWS
-#ifdef ELLIPSES
-#define SQUEEZED(dx) (dx * squeeze)
-#else
-#define SQUEEZED(dx) (dx)
-#endif
+#define SQUEEZED(dx) (ELLIPSES ? (dx)*squeeze : (dx))
+#if CUT_BY_ROWS
 // `shape` of the pixels of a row, zero beyond its limit; with means the pixel that holds the center
 // keeps its light.
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
 #define BESIDE_CENTER (dx <= -0.5f | dx > 0.5f | (int8)(dy <= -0.5f || dy > 0.5f ? -1 : 0))
 #else
 #define BESIDE_CENTER (int8)(-1)
@@ -72,7 +66,6 @@ static inline void fill_limits(float* along, float first, float low, int count,
 #define fill_limits(along, first, low, count, splat)
 #endif
 
-#ifdef LIGHT_ORDERED
 // The splat's layer behind what is already there: with u = transmittance X phi(A X), S grows
 // by E u and opacity by A u (opacity.cl). PASSED is exp(-A X). Written out for each channel,
 // since compilers leave a loop of three as it is, and then fetch E and A anew for every row.
@@ -113,11 +106,7 @@ static inline void fill_limits(float* along, float first, float low, int count,
 
 // Differences of the error function may be negative by their error. A thin layer's opacity must
 // not be: it would be read as a transmittance.
-#ifdef KEEP_TRANSMITTANCE
-#define NOT_NEGATIVE(shape) max(shape, 0.0f)
-#else
-#define NOT_NEGATIVE(shape) (shape)
-#endif
+#define NOT_NEGATIVE(shape) (KEEP_TRANSMITTANCE ? max(shape, 0.0f) : (shape))
 
 #define LAYER_ROWS(CHANNELS)                                                                \
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {                                    \
@@ -138,13 +127,9 @@ static inline void fill_limits(float* along, float first, float low, int count,
 #define BY_SERIES 3
 #define IN_FULL 4
 
-#ifdef KEEP_TRANSMITTANCE
 // Of a block of splats that are no deeper than this together no pixel is so opaque that its
 // transmittance is carried.
-#define DEPTH_OF_OPACITIES 0.45f
-#else
-#define DEPTH_OF_OPACITIES INFINITY
-#endif
+#define DEPTH_OF_OPACITIES (KEEP_TRANSMITTANCE ? 0.45f : INFINITY)
 
 static inline int form_of_layer(float deepest, float depth_of_block, const CompositeParameters* p) {
   if (deepest <= p->phi_third && depth_of_block <= DEPTH_OF_OPACITIES) {
@@ -153,9 +138,7 @@ static inline int form_of_layer(float deepest, float depth_of_block, const Compo
   }
   return deepest <= p->phi_series ? BY_SERIES : IN_FULL;
 }
-#endif
 
-#ifndef LIGHT_ORDERED
 // A row of a splat added to the sums, written out for each of them, as layers are.
 #define SUMMED_CHANNEL(c) const float8 summed##c = across * splat->summed[c];
 #define ADD_CHANNEL(c) \
@@ -175,7 +158,6 @@ static inline int form_of_layer(float deepest, float depth_of_block, const Compo
 #else
 #define SUMMED_CHANNELS SUMMED_LIGHT
 #define ADD_CHANNELS ADD_LIGHT
-#endif
 #endif
 
 // The window that one splat updates: `count` rows of eight pixels from (x, y) on.
@@ -197,18 +179,15 @@ static inline int first_of_eights(int2 columns) {
 // Rows of a window of `width` columns: the splat's, or the disc's part of these columns. Returns
 // the first.
 static inline int set_rows(Window* window, int2 rows, int width, __global const TileSplat* splat) {
-#ifdef KERNEL_CUT
-  const float last = FIRST_X + (float)(width - 1);
-  const float nearest =
-      clamp(splat->x, (float)window->x + FIRST_X, (float)window->x + last) - splat->x;
-#ifdef ELLIPSES
-  const float part_of_radius = nearest / splat->along_x.radius;
-  const float half_height = splat->radius * sqrt(max(1.0f - part_of_radius * part_of_radius, 0.0f));
-#else
-  const float half_height = sqrt(max(splat->radius * splat->radius - nearest * nearest, 0.0f));
-#endif
-  rows = pixel_range(splat->y, half_height, FIRST_Y, TILE_HEIGHT);
-#endif
+  if (KERNEL_CUT) {
+    const float last = FIRST_X + (float)(width - 1);
+    const float nearest =
+        clamp(splat->x, (float)window->x + FIRST_X, (float)window->x + last) - splat->x;
+    const float radius = splat->radius, in_radii = nearest / RADIUS_X(*splat);
+    const float half_height = ELLIPSES ? radius * sqrt(max(1.0f - in_radii * in_radii, 0.0f))
+                                       : sqrt(max(radius * radius - nearest * nearest, 0.0f));
+    rows = pixel_range(splat->y, half_height, FIRST_Y, TILE_HEIGHT);
+  }
   window->y = rows.x;
   window->rows = rows.y - rows.x + 1;
   return rows.x;
@@ -218,14 +197,14 @@ static inline int set_rows(Window* window, int2 rows, int width, __global const 
 // on a face of a cube with along[rows][8].
 static inline void update_window(float* tile, const Window* window, float8 across,
                                  const float* along, __global const TileSplat* splat, int form) {
-#ifdef CUT_BY_ROWS
+#if CUT_BY_ROWS
   const float8 dx =
       (float)window->x + FIRST_X - splat->x + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat);
   const float dy = (float)window->y + FIRST_Y - splat->y - LOW_Y(*splat);
   const float squeeze = cut_radius(splat->radius) / cut_radius(RADIUS_X(*splat));
 #endif
   float* pixel = tile + window->y * ROW + window->x;
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   const float8 absorption0 = splat->absorption[0], emission0 = splat->emission[0];
   const float8 absorption1 = splat->absorption[1], emission1 = splat->emission[1];
   const float8 absorption2 = splat->absorption[2], emission2 = splat->emission[2];
@@ -244,12 +223,9 @@ static inline void update_window(float* tile, const Window* window, float8 acros
   SUMMED_CHANNELS
 #pragma unroll 4
   for (int k = 0; k < window->rows; ++k, pixel += ROW) {
-#ifdef FACE_OF_CUBE
-    const float8 shape = SHAPE_OF_ROW(k);
-#else
     const float8 shape =
-        cut_shape((float8)(along[k]), dx, dy + (float)k, along[LIMITS + k], squeeze);
-#endif
+        FACE_OF_CUBE ? SHAPE_OF_ROW(k)
+                     : cut_shape((float8)(along[k]), dx, dy + (float)k, along[LIMITS + k], squeeze);
     ADD_CHANNELS
   }
 #endif

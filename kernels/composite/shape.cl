@@ -4,7 +4,7 @@
 
 // What a place holds below its single precision (bin.h). It is subtracted from distances to pixels,
 // which are exact where they count: near the splat.
-#ifdef FINE_PLACES
+#if FINE_PLACES
 #define LOW_X(splat) ((splat).x_low)
 #define LOW_Y(splat) ((splat).y_low)
 #else

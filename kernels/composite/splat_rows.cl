@@ -119,7 +119,7 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
 // How many rows are drawn of a window of at most seven: rows beside the splat take its tails, which
 // is no less exact. Those of plain sums take less than a processor loses by a count that it did not
 // foresee; of four or seven it foresees most.
-#if defined(LIGHT_ORDERED) || defined(KERNEL_CUT)
+#if LIGHT_ORDERED || KERNEL_CUT
 #define DRAWN_ROWS(count) (count)
 #else
 #define FEW_ROWS 4
@@ -128,7 +128,7 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
 
 // How a splat's layer is computed. Of the splats of a block up to this one, `depth_of_block` is the
 // most that their depths come to.
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 static inline int form_of_splat(__global const TileSplat* splat, const SplatTile* of_tile,
                                 float* depth_of_block, const CompositeParameters* p) {
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
@@ -148,7 +148,7 @@ static inline void add_splat(float* tile, __global const TileSplat* splat, int2 
   const float mean_sigma = of_tile->mean_sigma, sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   Window window;
   const int columns_count = columns.y - columns.x + 1, rows_count = rows.y - rows.x + 1;
-#ifndef ELLIPSES
+#if !ELLIPSES
   if (columns_count <= 3 && rows_count <= 3 && sigma < mean_sigma) {
     // A grain: the edges of its pixels along both axes fit one call.
     window.rows = 3;
@@ -166,7 +166,7 @@ static inline void add_splat(float* tile, __global const TileSplat* splat, int2 
     return;
   }
 #endif
-#if defined(KERNEL_CUT) && !defined(ELLIPSES)
+#if KERNEL_CUT && !ELLIPSES
   // Most splats of a large snapshot whose kernel is cut.
   if (columns_count <= 4 && rows_count <= 4 && sigma >= mean_sigma) {
     // The centers of its pixels along both axes fit one call.
@@ -205,7 +205,7 @@ static inline void add_splat(float* tile, __global const TileSplat* splat, int2 
       across = gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat), inverse);
       vstore8(gaussian(dy + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_Y(*splat), inverse), 0, along);
     }
-#ifdef ELLIPSES
+#if ELLIPSES
     across = sigma_x < mean_sigma ? seven_means(dx, LOW_X(*splat), sigma_x)
                                   : gaussian(dx + (float8)(0, 1, 2, 3, 4, 5, 6, 7) - LOW_X(*splat),
                                              inverse_of(sigma_x));

@@ -4,7 +4,7 @@
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 
-#ifndef STENCILS
+#if !STENCILS
 #define STENCILS 0
 #endif
 

@@ -16,13 +16,13 @@
 #include "kernels/composite/stencil_rows.cl"
 #include "kernels/composite/tile_planes.cl"
 #include "kernels/composite/waiting.cl"
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
 #include "kernels/composite/face_rows.cl"
 #else
 #include "kernels/composite/splat_rows.cl"
 #endif
 
-#ifndef LIGHT_ORDERED
+#if !LIGHT_ORDERED
 
 typedef struct SummedList {
   float* tile;
@@ -92,7 +92,7 @@ __attribute__((noinline)) static void draw_group(SummedList* list, PATCH lanes) 
 #ifdef NARROW_SPLATS
   EACH_ENTRY(kinds.smallest, add_grain(tile, &group->narrow, i, entry);)
   EACH_ENTRY(kinds.small, add_seven(tile, &group->narrow, i, entry);)
-#ifdef MIDDLE_SPLATS
+#if MIDDLE_SPLATS
   EACH_ENTRY(kinds.middle, add_middle_splat(tile, &group->narrow, i, entry);)
 #endif
 #endif

@@ -30,14 +30,14 @@
 
 // What all pixels need of a splat's light, in words of four floats: absorption with the optical
 // depth in any pixel at most, emission; in sums what they add up, by threes.
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 #define AMPLITUDES 2
 #else
 #define AMPLITUDES (SUMMED / 3)
 #endif
 
 // Which pixels a cut leaves out follows from two numbers, of the column and of the row.
-#if defined(KERNEL_CUT) && !defined(FACE_OF_CUBE) && !defined(ELLIPSES)
+#if KERNEL_CUT && !FACE_OF_CUBE && !ELLIPSES
 #define CUT_BY_AXES
 typedef float2 Axis;  // the shape, and cut_of_axis()
 #else
@@ -103,7 +103,7 @@ static inline float axis_of_splat(const __local Listed* listed, uint k, int is_c
   }
   const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
   const float radius = is_column ? RADIUS_X(*splat) : splat->radius;
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
   return fabs(d) > radius ? NOT_DRAWN : d;
 #else
   if (fabs(d) > radius) return 0.0f;
@@ -126,12 +126,12 @@ static inline int reaches_part(const __local TileSplat* splat, float x, float y,
   const float across = fabs(splat->x - x) - 0.5f * (PART_WIDTH - 1);
   const float along = fabs(splat->y - y) - 0.5f * (PART_HEIGHT - 1);
   if (across > RADIUS_X(*splat) || along > splat->radius) return 0;
-#if defined(KERNEL_CUT) || defined(FACE_OF_CUBE)
+#if KERNEL_CUT || FACE_OF_CUBE
   return 1;
 #else
   if (splat->sigma < mean_sigma || SIGMA_X(*splat) < mean_sigma) return 1;
   const float dx = max(across, 0.0f), dy = max(along, 0.0f);
-#ifdef ELLIPSES
+#if ELLIPSES
   const float round_dx = dx * (splat->radius / splat->along_x.radius);
 #else
   const float round_dx = dx;
@@ -141,7 +141,7 @@ static inline int reaches_part(const __local TileSplat* splat, float x, float y,
 }
 
 static inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   const float flux = 3.15f * fabs(splat->sigma * SIGMA_X(*splat));
   return max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
          (splat->sigma < mean_sigma ? min(1.0f, flux) : 1.0f);
@@ -177,7 +177,7 @@ INLINED int prepare_amplitudes(__local float4* amplitudes, const __local TileSpl
                                const TileClouds* clouds) {
   if (CLOUDS_IN_LISTS && is_cloud(splat->sigma))
     return prepare_cloud(amplitudes, cloud_of(splat->sigma, clouds));
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
   const float4 absorption = (float4)(splat->absorption[0], splat->absorption[1],
                                      splat->absorption[2], deepest_of(splat, mean_sigma));
   amplitudes[0] = absorption;
@@ -214,7 +214,7 @@ static inline float cut_of_axis(const __local TileSplat* splat, int is_column, f
   const float d = is_column ? center - splat->x - LOW_X(*splat) : center - splat->y - LOW_Y(*splat);
   const float cut = cut_radius(splat->radius);
   const float left = cut * cut - d * d;
-#ifdef SAMPLING_MEAN
+#if SAMPLING_MEAN
   const float above_a_quarter = 0.25000003f;
   if (is_column) return d == -0.5f ? above_a_quarter : d * d;
   return d > -0.5f && d <= 0.5f ? max(left, 0.25f) : left;

@@ -11,7 +11,7 @@
 // Sums of light, of which there are three, begin with nothing in every list and are added to what
 // is there when they are stored: however many splats there are, those of one list only are added to
 // a sum that is much larger than they are.
-#ifdef LIGHT_ORDERED
+#if LIGHT_ORDERED
 #define SUMS 3
 #else
 #define SUMS PLANES

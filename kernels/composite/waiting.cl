@@ -8,16 +8,6 @@
 #include "kernels/composite/patches.cl"
 #include "kernels/composite/rows.cl"
 
-#ifdef FACE_OF_CUBE
-// None waits.
-typedef struct WaitingSplats {
-  uint count;
-} WaitingSplats;
-#define clear_waiting(waiting) ((waiting)->count = 0)
-#define add_waiting(tile, waiting)
-#define let_wait_if_it_does(tile, waiting, rows, columns, splat, mean_sigma, form) 0
-#else
-
 typedef struct WaitingSplats {
   PatchShapes shapes;
   uint count;
@@ -40,12 +30,9 @@ static inline void add_waiting(float* tile, WaitingSplats* waiting) {
 
 // Splats up to so many pixels are drawn row by row, of those whose rows have no loop over columns
 // (narrow_splats.cl): in patches they would fill too few pixels.
-#if defined(KERNEL_CUT) || (defined(ROWS_OF_16) && !defined(LIGHT_ORDERED) && \
-                            (defined(ELLIPSES) || defined(FINE_PLACES) || SUMMED == 6))
-#define WIDEST_ALONE 7
-#else
-#define WIDEST_ALONE 16
-#endif
+#define HAS_LOOPS_OVER_COLUMNS \
+  (KERNEL_CUT || (ROWS_OF_16 && !LIGHT_ORDERED && (ELLIPSES || FINE_PLACES || SUMMED == 6)))
+#define WIDEST_ALONE (HAS_LOOPS_OVER_COLUMNS ? 7 : 16)
 
 // Whether a splat that touches `rows` and `columns` of the tile waits: wide ones do, and in order
 // all behind them. Bright ones take other formulas, and deep layers, one by one.
@@ -53,11 +40,8 @@ static inline int waits(const WaitingSplats* waiting, int2 rows, int2 columns,
                         __global const TileSplat* splat, int form) {
   const int widest = max(columns.y - columns.x, rows.y - rows.x) + 1;
   const int is_dim = SIGMA_X(*splat) > 0.0f && splat->sigma > 0.0f;
-#ifdef LIGHT_ORDERED
+  if (!LIGHT_ORDERED) return is_dim && widest > WIDEST_ALONE;
   return form <= BY_THREE_TERMS && is_dim && (widest > WIDEST_ALONE || waiting->count > 0);
-#else
-  return is_dim && widest > WIDEST_ALONE;
-#endif
 }
 
 // Lets a splat wait, and adds those that wait when there is no room for more.
@@ -65,23 +49,22 @@ static inline void let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2
                             __global const TileSplat* splat, float mean_sigma, int form) {
   const uint number = waiting->count++;
   put_splat(&waiting->shapes, number, rows, columns, splat, mean_sigma);
-#ifdef LIGHT_ORDERED
-  waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
-  waiting->forms.three_terms |= (ShapeBits)(form == BY_THREE_TERMS) << number;
-#endif
+  if (LIGHT_ORDERED) {
+    waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
+    waiting->forms.three_terms |= (ShapeBits)(form == BY_THREE_TERMS) << number;
+  }
   if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting);
 }
 
 // The same of one that does, and, in order, adds those that wait before one that does not.
 static inline int let_wait_if_it_does(float* tile, WaitingSplats* waiting, int2 rows, int2 columns,
                                       __global const TileSplat* splat, float mean_sigma, int form) {
+  // On faces of cubes each row has a shape of its own.
+  if (FACE_OF_CUBE) return 0;
   if (waits(waiting, rows, columns, splat, form)) {
     let_wait(tile, waiting, rows, columns, splat, mean_sigma, form);
     return 1;
   }
-#ifdef LIGHT_ORDERED
-  add_waiting(tile, waiting);
-#endif
+  if (LIGHT_ORDERED) add_waiting(tile, waiting);
   return 0;
 }
-#endif

@@ -15,7 +15,7 @@ static inline Extended extended_hypotenuse(Extended a, Extended b) {
 }
 
 // Below, extended_atan2(): the angle of (x, y) from the x axis, in [-pi, pi]; 0 for (0, 0).
-#ifdef DOUBLE_NUMBERS
+#if DOUBLE_NUMBERS
 static inline Extended extended_atan2(Extended y, Extended x) {
   // Zeros without signs, which would turn a pole by half a turn.
   return atan2(y + 0.0, x + 0.0);

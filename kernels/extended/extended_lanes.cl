@@ -3,7 +3,7 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-#ifdef DOUBLE_NUMBERS
+#if DOUBLE_NUMBERS
 typedef double8 ExtendedLanes;
 
 static inline ExtendedLanes lanes_pair(float8 high, float8 low) {

@@ -1,8 +1,7 @@
 // Splats of extended precision: 4-byte members only (grid.h).
 #include "kernels/common/grid.h"
 
-#ifndef SPLOTCHCL_EXTENDED_SPLAT_H
-#define SPLOTCHCL_EXTENDED_SPLAT_H
+#pragma once
 
 struct ExtendedAlongX {
   struct FloatPair sigma;
@@ -22,18 +21,14 @@ struct ExtendedSplat {
   struct FloatPair emission[3];  // E w
   struct FloatPair cut;          // radius of the cut disc
   float radius;                  // drawn up to here
-#ifdef ELLIPSES
+#if ELLIPSES
   struct ExtendedAlongX along_x;
 #endif
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
   struct ExtendedTilt tilt;
 #endif
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct ExtendedAlongX ExtendedAlongX;
 typedef struct ExtendedTilt ExtendedTilt;
 typedef struct ExtendedSplat ExtendedSplat;
-#endif
-
-#endif

@@ -6,7 +6,7 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-#if defined(DOUBLE_NUMBERS) && LANES > 1
+#if DOUBLE_NUMBERS && LANES > 1
 #if LANES == 16
 typedef double16 ExtendedValue;
 #define TO_EXTENDED convert_double16

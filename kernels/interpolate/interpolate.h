@@ -1,6 +1,5 @@
 // What host and kernels share of columns between two snapshots: 4-byte members only (grid.h).
-#ifndef SPLOTCHCL_INTERPOLATE_H
-#define SPLOTCHCL_INTERPOLATE_H
+#pragma once
 
 // src/between/interpolation.h, ColumnBetween.
 struct InterpolateParameters {
@@ -26,9 +25,5 @@ struct PathParameters {
   int first_velocity_stride, second_velocity_stride;
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct InterpolateParameters InterpolateParameters;
 typedef struct PathParameters PathParameters;
-#endif
-
-#endif

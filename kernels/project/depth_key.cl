@@ -83,7 +83,6 @@ INLINED WIDE upper_product(Halves ax, Halves bx, Halves ay, Halves by, Halves az
   return upper + (middle >> 30);
 }
 
-#ifdef WIDE_ANGLE
 // The key of a distance with these components, each below 2^60.
 INLINED UNSIGNED_WIDE distance_key(UNSIGNED_WIDE x, UNSIGNED_WIDE y, UNSIGNED_WIDE z,
                                    INTEGER exponent) {
@@ -96,7 +95,6 @@ INLINED UNSIGNED_WIDE distance_key(UNSIGNED_WIDE x, UNSIGNED_WIDE y, UNSIGNED_WI
   return compressed_depth(TO_UNSIGNED_WIDE(upper_product(a, a, b, b, c, c)),
                           60 + 2 * (exponent - doublings), 254);
 }
-#endif
 
 // From the camera.
 typedef struct Place {
@@ -151,10 +149,11 @@ INLINED Place place_of(const Vectors position, const DepthKeyParameters p) {
 INLINED Depth depth_of(const Vectors position, const DepthKeyParameters p) {
   const Place place = place_of(position, p);
   Depth depth;
-#ifdef WIDE_ANGLE
-  depth.key = distance_key(abs(place.x), abs(place.y), abs(place.z), place.exponent);
-  depth.is_before_camera = TO_INTEGER(depth.key != 0);
-#else
+  if (WIDE_ANGLE) {
+    depth.key = distance_key(abs(place.x), abs(place.y), abs(place.z), place.exponent);
+    depth.is_before_camera = TO_INTEGER(depth.key != 0);
+    return depth;
+  }
   const WIDE z = upper_product(halves_of(place.x), halves_of((WIDE)(wide_integer(p.forward[0]))),
                                halves_of(place.y), halves_of((WIDE)(wide_integer(p.forward[1]))),
                                halves_of(place.z), halves_of((WIDE)(wide_integer(p.forward[2]))));
@@ -162,7 +161,6 @@ INLINED Depth depth_of(const Vectors position, const DepthKeyParameters p) {
   depth.key = choose_wide(ZERO_DEPTH + magnitude, ZERO_DEPTH - magnitude, TO_INTEGER(z < 0));
   depth.is_before_camera =
       (INTEGER)(p.perspective ? 0 : -1) | TO_INTEGER(z >= LEAST_PERSPECTIVE_DEPTH);
-#endif
   return depth;
 }
 
@@ -180,11 +178,8 @@ INLINED UNSIGNED_WIDE near_key_of(VALUE h, const DepthKeyParameters p) {
   // h is digits * 2^(exponent_bits - 150).
   const INTEGER exponent =
       max(exponent_bits, 1) - 150 - doublings + p.near_exponent - p.finest_unit;
-#ifdef WIDE_ANGLE
-  return distance_key(limit, (UNSIGNED_WIDE)(0), (UNSIGNED_WIDE)(0), exponent);
-#else
-  return ZERO_DEPTH + compressed_depth(limit, exponent, 126);
-#endif
+  return WIDE_ANGLE ? distance_key(limit, (UNSIGNED_WIDE)(0), (UNSIGNED_WIDE)(0), exponent)
+                    : ZERO_DEPTH + compressed_depth(limit, exponent, 126);
 }
 
 INLINED INTEGER is_within_limits(const Depth depth, VALUE h, const DepthKeyParameters p) {

@@ -4,8 +4,6 @@
 #include "kernels/common/lanes.cl"
 #include "kernels/project/project.h"
 
-#ifdef FACE_OF_CUBE
-
 #pragma OPENCL FP_CONTRACT OFF
 
 typedef struct FaceEllipse {
@@ -57,4 +55,3 @@ INLINED VALUE face_part(const FaceEllipse ellipse, VALUE extent, const ProjectPa
   const VALUE of_cloud = ellipse.squared_width * face_secant2(ellipse, extent, p);
   return of_cloud / (of_cloud + ellipse.footprint);
 }
-#endif

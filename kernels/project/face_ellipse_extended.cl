@@ -3,8 +3,6 @@
 #include "kernels/extended/extended.cl"
 #include "kernels/project/project.h"
 
-#ifdef FACE_OF_CUBE
-
 #pragma OPENCL FP_CONTRACT OFF
 
 typedef struct ExtendedFaceEllipse {
@@ -63,4 +61,3 @@ static inline float extended_face_part(const ExtendedFaceEllipse ellipse) {
   const float gk = 3.0f * high_part(ellipse.squared_width), c = high_part(ellipse.footprint);
   return c > 0.0f ? gk / (gk + c) : 1.0f;
 }
-#endif

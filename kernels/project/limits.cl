@@ -104,6 +104,9 @@ static inline INTEGER grid_of_octave(INTEGER octave, VALUE peak, const ProjectPa
   return select(grid, (INTEGER)(0), peak > p.coarse_peak);
 }
 
+// A blur is chosen by two bits.
+REQUIRE(four_blurs, MOST_BLURS == 4);
+
 // level_of_grid() and, of coarse grids, blur_of_grid() of grid.cl, of VALUEs.
 static inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
   const INTEGER of_others = ((grid - 1) >> p.blurs.shift) + p.blurs.first_level;
@@ -111,9 +114,6 @@ static inline INTEGER level_of(INTEGER grid, const ProjectParameters p) {
 }
 // `values` has one for each blur.
 INLINED VALUE value_of_blur(INTEGER grid, const float* values) {
-#if MOST_BLURS != 4
-#error "a blur is chosen by two bits"
-#endif
   const INTEGER of_level = grid - 1, is_odd = (of_level & 1) != 0, is_upper = (of_level & 2) != 0;
   const VALUE lower = choose((VALUE)(values[0]), (VALUE)(values[1]), is_odd);
   const VALUE upper = choose((VALUE)(values[2]), (VALUE)(values[3]), is_odd);

@@ -59,14 +59,12 @@ INLINED Vectors load_vectors(__global const float* vectors, uint i, uint end) {
   return v;
 }
 
-#ifdef VECTOR_COLORS
 INLINED Vectors load_colors(__global const float* colors, uint i, uint end, int stride) {
   if (stride != 0) return load_vectors(colors, i, end);
   Vectors same;
   same.x = same.y = same.z = (VALUE)(colors[0]);
   return same;
 }
-#endif
 
 // The columns of one component.
 typedef struct Columns {
@@ -93,9 +91,7 @@ typedef struct ParticleLanes {
   INTEGER exists;
   Vectors position;
   VALUE h, weight, color, intensity, sort_field;
-#ifdef VECTOR_COLORS
-  Vectors own_color;
-#endif
+  Vectors own_color;  // of vector colors
 } ParticleLanes;
 
 #if LANES > 1
@@ -130,9 +126,8 @@ INLINED ParticleLanes load_particles(const Columns columns, uint i, uint end,
   particles.intensity = load_values(columns.intensities, i, end, p.intensity_stride);
   particles.sort_field = load_values(columns.sort_fields, i, end, p.sort_stride);
   particles.position = load_vectors(columns.positions, i, end);
-#ifdef VECTOR_COLORS
-  particles.own_color = load_colors(columns.own_colors, i, end, p.own_color_stride);
-#endif
+  if (VECTOR_COLORS)
+    particles.own_color = load_colors(columns.own_colors, i, end, p.own_color_stride);
   return particles;
 }
 
@@ -151,9 +146,7 @@ INLINED INTEGER are_good(const ParticleLanes particles, const Vectors offset) {
                         particles.weight * 0.0f + particles.color * 0.0f +
                         particles.intensity * 0.0f + particles.sort_field * 0.0f;
   INTEGER good = nothing == 0.0f & particles.h > 0.0f & particles.weight >= 0.0f;
-#ifdef VECTOR_COLORS
-  good &= is_color(particles.own_color.x) & is_color(particles.own_color.y) &
-          is_color(particles.own_color.z);
-#endif
-  return good;
+  if (!VECTOR_COLORS) return good;
+  return good & is_color(particles.own_color.x) & is_color(particles.own_color.y) &
+         is_color(particles.own_color.z);
 }

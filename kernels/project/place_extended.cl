@@ -11,9 +11,7 @@ typedef struct ExtendedPlace {
   Extended x, y;   // pixels of the whole picture
   Extended scale;  // pixels per length of a width
   int seen;
-#ifdef COPIES
-  Extended cos_latitude, sine_latitude;
-#endif
+  Extended cos_latitude, sine_latitude;  // equirectangular
 } ExtendedPlace;
 
 static inline Extended extended_dot(const Extended* d, const FloatPair* axis) {
@@ -31,7 +29,6 @@ static inline void extended_offset(__global const float* position, const Extende
   }
 }
 
-#ifdef WIDE_ANGLE
 // n with 2^n <= the largest of the three < 2^(n + 1), in the range of extended_power_of_two().
 static inline int exponent_of_largest(const Extended* d) {
   const float largest =
@@ -40,8 +37,8 @@ static inline int exponent_of_largest(const Extended* d) {
 }
 
 // In units of a power of two near the distance, so that no length's unit matters.
-static inline ExtendedPlace extended_place(__global const float* position,
-                                           const ProjectParameters p, const ExtendedParameters e) {
+static inline ExtendedPlace extended_place_in_wide_angle(__global const float* position,
+                                                         const ExtendedParameters e) {
   Extended d[3], v[3];
   extended_offset(position, e, d);
   const int exponent = exponent_of_largest(d);
@@ -58,15 +55,14 @@ static inline ExtendedPlace extended_place(__global const float* position,
   place.y = extended_sum(extended_pair(e.center_y), seen.y);
   place.scale = extended_scaled(seen.scale, per_unit);
   place.seen = seen.seen;
-#ifdef COPIES
   place.cos_latitude = seen.cos_latitude;
   place.sine_latitude = seen.sine_latitude;
-#endif
   return place;
 }
-#else
-static inline ExtendedPlace extended_place(__global const float* position,
-                                           const ProjectParameters p, const ExtendedParameters e) {
+
+static inline ExtendedPlace extended_place_in_plane(__global const float* position,
+                                                    const ProjectParameters p,
+                                                    const ExtendedParameters e) {
   Extended d[3];
   extended_offset(position, e, d);
   ExtendedPlace place;
@@ -84,4 +80,9 @@ static inline ExtendedPlace extended_place(__global const float* position,
                          extended_product(extended_dot(d, e.down), place.scale));
   return place;
 }
-#endif
+
+static inline ExtendedPlace extended_place(__global const float* position,
+                                           const ProjectParameters p, const ExtendedParameters e) {
+  return WIDE_ANGLE ? extended_place_in_wide_angle(position, e)
+                    : extended_place_in_plane(position, p, e);
+}

@@ -1,5 +1,7 @@
 // Particles to splats. A work-item walks one block of particles and writes the visible
 // ones one after the other from its own offset, so their order is the file's.
+#include "kernels/bin/tile_lanes.cl"
+#include "kernels/bin/tiles.cl"
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
@@ -18,10 +20,6 @@
 #include "kernels/project/splat_place.cl"
 #include "kernels/project/splat_widths.cl"
 #include "kernels/project/wide_angle.cl"
-#if defined(COUNT_TILES) || (defined(OUTPUT_SPLATS) && defined(TILES_IN_SPLAT))
-#include "kernels/bin/tile_lanes.cl"
-#include "kernels/bin/tiles.cl"
-#endif
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -32,7 +30,6 @@ static inline uint blocks_of(const ProjectParameters p) {
   return particles / p.block_particles + (particles % p.block_particles != 0);
 }
 
-#ifdef COUNT_KEYS
 INLINED KeyBins no_bins(void) {
   KeyBins bins;
   bins.least = ~0u;
@@ -45,17 +42,13 @@ INLINED void count_key(uint bin, __global uint* key_counts, KeyBins* bins) {
   bins->least = min(bins->least, bin);
   bins->most = max(bins->most, bin);
 }
-#endif
 
-#ifdef COUNT_TILES
 // `kept` is where the splat lies; `tiles` takes which it touches, where it does not hold them.
 INLINED void list_splat(const Splat listed, __global const Splat* kept, __global const Grid* grid,
                         uint is_visible, __global uint* count, __global uint* tiles,
                         WaitingCounts* waiting) {
-#ifdef TILES_IN_SPLAT
-#ifdef WRITES_ALL_LANES
-  if (grid->is_part && !is_visible) return;
-#endif
+  if (WRITES_ALL_LANES && grid->is_part && !is_visible) return;
+#if TILES_IN_SPLAT
   const uint touched = tiles_in_lists(listed.tiles, kept, grid);
 #else
   const uint touched = tiles_of(listed, *grid);
@@ -63,9 +56,7 @@ INLINED void list_splat(const Splat listed, __global const Splat* kept, __global
 #endif
   count_in_tiles(touched, kept, grid, is_visible, count, waiting);
 }
-#endif
 
-#ifdef COUNTS_ALL_LANES
 INLINED uint corner_tile_of(const SplatArrays* found, uint k, __global const Grid* grids) {
   return grids[found->grid[k]].corner_tile + (uint)found->from_corner[k];
 }
@@ -76,7 +67,7 @@ INLINED uint list_all_lanes(const SplatArrays* found, uint slot, __global Splat*
   for (uint k = 0; k < LANES; ++k) {
     __global Splat* kept = splats + slot;
     ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
-    STORE_SPLAT(*found, k, splat, kept);
+    store_splat(found, k, found->splats[k], kept);
     // Vectors' comparisons give -1.
     const uint is_visible = -(uint)found->visible[k];
     count[corner_tile_of(found, k, grids)] += is_visible;
@@ -85,12 +76,11 @@ INLINED uint list_all_lanes(const SplatArrays* found, uint slot, __global Splat*
   // Those of several tiles: which these are no processor foresees, but how many.
   for (uint left = found->have_several; left != 0; left &= left - 1u) {
     const uint k = popcount(~left & (left - 1u));
-    count_behind_first(found->splats[k].tiles, (uint)found->tiles_x[k],
+    count_behind_first((uint)found->tiles[k], (uint)found->tiles_x[k],
                        count + corner_tile_of(found, k, grids));
   }
   return slot;
 }
-#endif
 
 INLINED BlockCounts no_counts(void) {
   BlockCounts counts;
@@ -105,9 +95,7 @@ INLINED int find_splats(uint i, uint end, const ProjectParameters* p,
                         const Columns columns, BlockCounts* of_block, SplatArrays* found) {
   SplatLanes lanes = project_lanes(i, end, *p, width_needs, *e, columns);
   if (ANY(lanes.bad)) of_block->bad += count_true(lanes.bad);
-#ifdef CLOUDS_AROUND
-  if (ANY(lanes.around)) of_block->around += count_true(lanes.around);
-#endif
+  if (CLOUDS_AROUND && ANY(lanes.around)) of_block->around += count_true(lanes.around);
   const INTEGER unclear = (lanes.visible | lanes.too_sharp) & lanes.unclear;
   if (ANY(unclear)) {
     const INTEGER within = are_within_limits(i, end, unclear, columns, *p);
@@ -116,39 +104,21 @@ INLINED int find_splats(uint i, uint end, const ProjectParameters* p,
   }
   if (ANY(lanes.too_sharp)) of_block->too_sharp += count_true(lanes.too_sharp);
   if (!ANY(lanes.visible)) return 0;
-#ifdef TILES_OF_LANES
-  const TileLanes tiles = tiles_of_lanes(lanes, *p);
+  TileLanes tiles;
+  if (TILES_OF_LANES) tiles = tiles_of_lanes(lanes, *p);
   spread(lanes, tiles.packed, found);
-#ifdef COUNTS_ALL_LANES
-  found->has_known_tiles = !p->has_parts && !ANY(tiles.packed == (INTEGER)((int)FOUND_AGAIN));
-  STORE(lanes.grid, found->grid);
-  STORE(tiles.from_corner, found->from_corner);
-  STORE(tiles.tiles_x, found->tiles_x);
-  found->have_several = or_of_lanes(tiles.has_several << NUMBERS_OF_LANES);
-#endif
-#else
-  spread(lanes, (INTEGER)(0), found);
-#endif
-#ifdef SORT_KEYS
-  STORE(AS_WIDE(sort_keys_of(columns, i, end, lanes.sort_field, *p)), found->sort_keys);
-#endif
+  if (COUNTS_ALL_LANES) {
+    found->has_known_tiles = !p->has_parts && !ANY(tiles.packed == (INTEGER)((int)FOUND_AGAIN));
+    STORE(lanes.grid, found->grid);
+    STORE(tiles.packed, found->tiles);
+    STORE(tiles.from_corner, found->from_corner);
+    STORE(tiles.tiles_x, found->tiles_x);
+    found->have_several = or_of_lanes(tiles.has_several << NUMBERS_OF_LANES);
+  }
+  if (SORT_KEYS)
+    STORE(AS_WIDE(sort_keys_of(columns, i, end, lanes.sort_field, *p)), found->sort_keys);
   return 1;
 }
-
-#ifdef COPIES
-// Of a panorama, in which a splat may show several times.
-INLINED Copies copies_of(const SplatArrays* found, uint k, const Splat* splat,
-                         const ProjectParameters p, float* y) {
-#ifdef EXTENDED_NUMBERS
-  *y = pixels_from_middle(splat->y, *splat, p);
-  return copies_in_picture(pixels_from_middle(splat->x, *splat, p), *y, splat->along_x.radius,
-                           splat->radius, p);
-#else
-  *y = found->pixel_y[k];
-  return copies_in_picture(found->pixel_x[k], *y, found->radius_x[k], found->radius[k], p);
-#endif
-}
-#endif
 
 // A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles. The
 // lanes' numbers are an argument so that their registers are used (lanes.cl).
@@ -167,119 +137,79 @@ __attribute__((noinline)) static void project_block(
   const uint first_slot = p.first_slot + offsets[p.first_block + block];
   uint slot = first_slot;
   BlockCounts of_block = no_counts();
-#ifdef COUNT_KEYS
   KeyBins bins = no_bins();
-#endif
-#ifdef COUNT_TILES
   __global uint* count = to.tile_counts + (size_t)block * p.tile_count;
-  for (uint t = 0; t < p.tile_count; ++t)
+  for (uint t = 0; COUNT_TILES && t < p.tile_count; ++t)
     count[t] = 0;
   WaitingCounts waiting = no_waiting_counts();
-#endif
   const int is_left_out = p.leaves_out_blocks && left_out[block] != 0;
   if (is_left_out) of_block.bad = left_out[block] - 1;
   for (uint i = begin; i < end && !is_left_out; i += LANES) {
     SplatArrays found;
     if (!find_splats(i, end, &p, width_needs, &e, columns, &of_block, &found)) continue;
-#ifdef COUNTS_ALL_LANES
-    if (found.has_known_tiles) {
+    if (COUNTS_ALL_LANES && found.has_known_tiles) {
       slot = list_all_lanes(&found, slot, to.splats, grids, count);
       continue;
     }
-#endif
     for (uint k = 0; k < LANES; ++k) {
-#ifdef WRITES_ALL_LANES
       const uint is_visible = (uint)found.visible[k] & 1u;
-#else
-      if (!found.visible[k]) continue;
-      const uint is_visible = 1;
-#endif
-#ifdef SORT_KEYS
-      const ulong key = (ulong)found.sort_keys[k];
-#endif
-#ifdef KEY_WINDOW
-      if (!is_in_window(key, p)) continue;
-#endif
-#if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
-      Splat splat = splat_of(&found, k);
-#endif
-#ifdef EXTENDED_NUMBERS
+      if (!WRITES_ALL_LANES && !is_visible) continue;
+      const ulong key = SORT_KEYS ? (ulong)found.sort_keys[k] : 0ul;
+      if (SORT_KEYS && !is_in_window(key, p)) continue;
       Splat splat;
       ExtendedSplat extended;
-      if (!extended_splat(i + k, p, e, columns, component_colors, knots, &splat, &extended)) {
-        continue;
+      if (EXTENDED_NUMBERS) {
+        if (!extended_splat(i + k, p, e, columns, component_colors, knots, &splat, &extended))
+          continue;
+      } else if (OUTPUT_SPLATS) {
+        splat = splat_of(&found, k);
       }
-#endif
-#ifdef COPIES
       float y = 0.0f;
-#if defined(OUTPUT_SPLATS) || defined(EXTENDED_NUMBERS)
       const Copies copies = copies_of(&found, k, &splat, p, &y);
-#else
-      const Copies copies = copies_of(&found, k, 0, p, &y);
-#endif
       for (int copy = copies.first; copy <= copies.last; copy += copies.step) {
-#endif
-#ifdef OUTPUT_SPLATS
-#ifdef COPIES
-        Splat listed = splat;
-        put_copy(&listed, copy, y, p);
-#else
-        const Splat listed = splat;
-#endif
-        __global Splat* kept = to.splats + slot;
-        ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
-        STORE_SPLAT(found, k, listed, kept);
-#ifdef EXTENDED_NUMBERS
-#ifdef COPIES
-        to.extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
-#else
-        to.extended_splats[slot] = extended;
-#endif
-#endif
-#endif
-#ifdef OUTPUT_KEYS
-        to.keys[slot] = (uint)(key >> 16);
-        if (!p.sort_by_field) to.key_ends[slot] = (ushort)key;
-#endif
-#ifdef COUNT_KEYS
-        count_key(bin_of(key, p), to.key_counts, &bins);
-#endif
-#ifdef COUNT_TILES
-        list_splat(listed, kept, grids + grid_of(listed), is_visible, count, to.tiles + slot,
-                   &waiting);
-#endif
+        if (OUTPUT_SPLATS) {
+          Splat listed = splat;
+          if (COPIES) put_copy(&listed, copy, y, p);
+          __global Splat* kept = to.splats + slot;
+          ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
+          store_splat(&found, k, listed, kept);
+          if (EXTENDED_NUMBERS)
+            to.extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
+          if (COUNT_TILES) {
+            list_splat(listed, kept, grids + grid_of(listed), is_visible, count, to.tiles + slot,
+                       &waiting);
+          }
+        }
+        if (OUTPUT_KEYS) {
+          to.keys[slot] = (uint)(key >> 16);
+          if (!p.sort_by_field) to.key_ends[slot] = (ushort)key;
+        }
+        if (COUNT_KEYS) count_key(bin_of(key, p), to.key_counts, &bins);
         slot += is_visible;
-#ifdef COPIES
       }
-#endif
     }
   }
-#ifdef COUNT_TILES
-  count_waiting(&waiting, count);
-#endif
+  if (COUNT_TILES) count_waiting(&waiting, count);
   of_block.visible = slot - first_slot;
   to.counts[p.first_block + block] = of_block;
-#ifdef COUNT_KEYS
-  to.key_bins[block] = bins;
-#endif
+  if (COUNT_KEYS) to.key_bins[block] = bins;
 }
 
-// counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the
-// splats are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys, and
-// the 16 bits below them where depths are keys, too; with COUNT_TILES
-// tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t, and
-// tiles[slot] which they are. With KEY_WINDOW only splats whose sort keys lie in it are there; with
-// COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's. Of
-// a block that no part of the picture shows, left_out[b] is the number of its bad particles and 1
-// more, else 0.
+// counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the splats
+// are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys, and the 16
+// bits below them where depths are keys, too; with COUNT_TILES tile_counts[b * tile_count + t]
+// takes how many of the block's splats touch tile t, and tiles[slot] which they are; with
+// COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's.
+// Where there are keys, only splats in the window of keys are there. Of a block that no part of the
+// picture shows, left_out[b] is the number of its bad particles and 1 more, else 0.
 __kernel void project(const ProjectParameters p, const ExtendedParameters e,
                       __global const float* positions, __global const float* smoothing_lengths,
                       __global const float* weights, __global const float* colors,
                       __global const float* intensities, __global const float* sort_fields,
                       __global const float* own_colors, __global const uint* offsets,
                       __global BlockCounts* counts, __global Splat* splats, __global uint* keys,
-                      __global ushort* key_ends, __global uint* order,
-                      __global const WidthNeeds* width_needs, __global const uint* left_out,
+                      __global ushort* key_ends, __global const WidthNeeds* width_needs,
+                      __global const uint* left_out,
                       __global const ComponentColors* component_colors, __global const float* knots,
                       __global ExtendedSplat* extended_splats, __global uint* key_counts,
                       __global KeyBins* key_bins, __global const Grid* grids,
@@ -288,8 +218,8 @@ __kernel void project(const ProjectParameters p, const ExtendedParameters e,
   if (block == NO_PIECE) return;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields, own_colors);
-  const ProjectTargets targets = {counts,          splats,     keys,     key_ends,    order,
-                                  extended_splats, key_counts, key_bins, tile_counts, tiles};
+  const ProjectTargets targets = {counts,     splats,   keys,        key_ends, extended_splats,
+                                  key_counts, key_bins, tile_counts, tiles};
   project_block(block, &p, &e, NUMBERS_OF_LANES, &columns, offsets, width_needs, left_out,
                 component_colors, knots, grids, &targets);
 }

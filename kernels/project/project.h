@@ -1,8 +1,7 @@
 // What host and kernels share of the projection: 4-byte members only (grid.h).
 #include "kernels/common/grid.h"
 
-#ifndef SPLOTCHCL_PROJECT_H
-#define SPLOTCHCL_PROJECT_H
+#pragma once
 
 #define SCALING_LINEAR 0
 #define SCALING_LOG 1
@@ -206,7 +205,6 @@ struct ExtendedParameters {
   float inverse_share;  // 1 / (light that one splat may leave out)
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct FieldScaling FieldScaling;
 typedef struct ExtendedFieldScaling ExtendedFieldScaling;
 typedef struct WideInteger WideInteger;
@@ -217,6 +215,3 @@ typedef struct BlockBox BlockBox;
 typedef struct BlockCounts BlockCounts;
 typedef struct KeyBins KeyBins;
 typedef struct ExtendedParameters ExtendedParameters;
-#endif
-
-#endif

@@ -13,8 +13,6 @@
 #include "kernels/project/wide_angle.cl"
 #include "kernels/project/wide_angle_extended.cl"
 
-#ifdef EXTENDED_NUMBERS
-
 #pragma OPENCL FP_CONTRACT OFF
 
 // As log_from_least() and asinh_from_least() do it for lanes (limits.cl).
@@ -197,24 +195,22 @@ static inline void put_in_units(float x, float y, float farthest, const ProjectP
   splat->component_and_grid = p.component | ((uint)coarser << 24);
 }
 
-#ifdef FACE_OF_CUBE
 static inline ExtendedFaceEllipse ellipse_on_face(const ExtendedPlace place, Extended sigma,
                                                   const ProjectParameters p,
                                                   const ExtendedParameters e) {
   return extended_face_ellipse(sigma, extended_difference(place.x, extended_pair(e.center_x)),
                                extended_difference(place.y, extended_pair(e.center_y)), p, e);
 }
-#endif
 
 // Places and widths; `peak` is the largest of E w and A w.
 static inline void extended_shape(ExtendedPlace place, Extended sigma, float peak,
                                   const ProjectParameters p, const ExtendedParameters e,
                                   Splat* splat, ExtendedSplat* extended) {
-#if defined(FACE_OF_CUBE)
+#if FACE_OF_CUBE
   const ExtendedFaceEllipse ellipse = ellipse_on_face(place, sigma, p, e);
   const Extended sigma_x = extended_of(ellipse.sigma_x), sigma_y = extended_of(ellipse.sigma_y);
   const float area = 1.0f;
-#elif defined(ELLIPSES)
+#elif ELLIPSES
   const ExtendedEllipse ellipse =
       extended_panorama_ellipse(sigma, place.cos_latitude, place.sine_latitude, e);
   const Extended sigma_x = ellipse.sigma_x;
@@ -230,7 +226,7 @@ static inline void extended_shape(ExtendedPlace place, Extended sigma, float pea
   const float extent = extended_extent(peak * min(1.0f, 3.2f * area), e);
   extended->x = pair_of(place.x);
   extended->y = pair_of(place.y);
-#ifdef FACE_OF_CUBE
+#if FACE_OF_CUBE
   const float farther = extended_face_reach(ellipse, extent, p);
   extended->cut = e.kernel_cut;
   extended->tilt.squared_width = pair_of(ellipse.squared_width);
@@ -247,20 +243,16 @@ static inline void extended_shape(ExtendedPlace place, Extended sigma, float pea
   splat->sigma = high_part(sigma_y);
   const float far = fabs(x) + fabs(y);
   splat->radius = rounded_radius(extended->radius, far);
-#ifdef ELLIPSES
+#if ELLIPSES
   extended->along_x.sigma = pair_of(sigma_x);
   extended->along_x.radius = radius_of(sigma_x, extent, e) * farther;
   splat->along_x.sigma = high_part(sigma_x);
   // Copies lie up to four periods farther.
   splat->along_x.radius = rounded_radius(extended->along_x.radius, far + 4.0f * p.period);
 #endif
-#ifdef COPIES
   const float beside =
-      max(splat->along_x.radius + max(-p.left, p.right_end), splat->radius + max(-p.top, p.bottom));
-  put_in_units(x, y, beside, p, splat);
-#else
-  put_in_units(x, y, 0.0f, p, splat);
-#endif
+      max(RADIUS_X(*splat) + max(-p.left, p.right_end), splat->radius + max(-p.top, p.bottom));
+  put_in_units(x, y, COPIES ? beside : 0.0f, p, splat);
 }
 
 // False if the particle is not in the picture.
@@ -281,21 +273,15 @@ static inline int extended_splat(uint i, const ProjectParameters p, const Extend
   Extended own[3];
   float brightest = p.peak_color;
   for (int c = 0; c < 3; ++c) {
-#ifdef VECTOR_COLORS
-    own[c] = extended_of(columns.own_colors[p.own_color_stride == 0 ? 0 : (size_t)i * 3 + c]);
-#else
-    own[c] = extended_of(1.0f);
-#endif
+    const size_t at = p.own_color_stride == 0 ? 0 : (size_t)i * 3 + c;
+    own[c] = extended_of(VECTOR_COLORS ? columns.own_colors[at] : 1.0f);
   }
-#ifdef VECTOR_COLORS
-  const float brightest_own = max(high_part(own[0]), max(high_part(own[1]), high_part(own[2])));
-  brightest = max(brightest * brightest_own, p.peak_own);
-#endif
-#ifdef FACE_OF_CUBE
-  const float share = extended_face_part(ellipse_on_face(place, sigma, p, e));
-#else
-  const float share = min(1.0f, 3.2f * high_part(sigma) * high_part(sigma));
-#endif
+  if (VECTOR_COLORS) {
+    const float brightest_own = max(high_part(own[0]), max(high_part(own[1]), high_part(own[2])));
+    brightest = max(brightest * brightest_own, p.peak_own);
+  }
+  const float share = FACE_OF_CUBE ? extended_face_part(ellipse_on_face(place, sigma, p, e))
+                                   : min(1.0f, 3.2f * high_part(sigma) * high_part(sigma));
   weight = extended_product(extended_limited_weight(weight, brightest * share),
                             extended_normalized(columns.intensities[(size_t)i * p.intensity_stride],
                                                 p.intensity.scaling, e.intensity));
@@ -311,25 +297,22 @@ static inline int extended_splat(uint i, const ProjectParameters p, const Extend
     extended->summed[c] = pair_of(e.sums_emission ? emission[c] : absorption[c]);
     extended->emission[c] = pair_of(emission[c]);
   }
-#ifdef FACE_OF_CUBE
-  peak *= share;
-#endif
+  if (FACE_OF_CUBE) peak *= share;
   splat->weight = high_part(weight);
   splat->color = high_part(position);
   extended_shape(place, sigma, peak, p, e, splat, extended);
   const float x = pixels_from_middle(splat->x, *splat, p);
   const float y = pixels_from_middle(splat->y, *splat, p);
-  int in_picture = y + splat->radius >= p.top && y - splat->radius <= p.bottom;
-#ifndef COPIES  // beside the picture they may reach it
-  in_picture &= x + RADIUS_X(*splat) >= p.left && x - RADIUS_X(*splat) <= p.right_end;
-#endif
-  return in_picture;
+  const int in_rows = y + splat->radius >= p.top && y - splat->radius <= p.bottom;
+  const int in_columns = x + RADIUS_X(*splat) >= p.left && x - RADIUS_X(*splat) <= p.right_end;
+  // Copies of what is beside the picture may reach it.
+  return in_rows && (COPIES || in_columns);
 }
 
-#ifdef COPIES
 // The splat's copy so many half periods to the right; odd ones are mirrored over this pole.
 static inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole,
                                     const ExtendedParameters e) {
+  if (!COPIES) return splat;
   const Extended moved = extended_product(extended_of(0.5f * (float)copy), extended_pair(e.period));
   splat.x = pair_of(extended_sum(extended_pair(splat.x), moved));
   if ((copy & 1) != 0) {
@@ -339,5 +322,3 @@ static inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole,
   }
   return splat;
 }
-#endif
-#endif

@@ -1,6 +1,5 @@
-// Particles to splats for GPUs: a work-item per particle. A first pass counts the splats of each
-// group, and when these counts have been scanned a second one writes the splats without gaps, in
-// the order of the file.
+// Particles to splats for GPUs: a work-item per particle, a group for each block of them, which
+// writes its splats in the order of the file.
 #include "kernels/common/common.cl"
 #include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
@@ -22,10 +21,7 @@
 
 INLINED SplatLanes no_splat(void) {
   SplatLanes none;
-  none.visible = none.bad = none.unclear = none.too_sharp = 0;
-#ifdef CLOUDS_AROUND
-  none.around = 0;
-#endif
+  none.visible = none.bad = none.unclear = none.too_sharp = none.around = 0;
   return none;
 }
 
@@ -43,34 +39,29 @@ KERNEL_BODY void project_particle(uint i, const ProjectParameters* p,
   }
 }
 
-// As project.cl says, but that offsets[group] takes the number of splats of each group in the pass
-// that counts, and counts[0] those of all groups. left_out[b] is that of a launch's group b, whose
-// items meet every barrier all the same.
+// As project.cl says. left_out[b] is that of a launch's group b, whose items meet every barrier all
+// the same.
 __kernel OF_GROUPS void project(
     const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
     __global const float* smoothing_lengths, __global const float* weights,
     __global const float* colors, __global const float* intensities,
-    __global const float* sort_fields, __global const float* own_colors, __global uint* offsets,
-    __global BlockCounts* counts, __global Splat* splats, __global uint* keys,
-    __global ushort* key_ends, __global uint* order, __global const WidthNeeds* width_needs,
+    __global const float* sort_fields, __global const float* own_colors,
+    __global const uint* offsets, __global BlockCounts* counts, __global Splat* splats,
+    __global uint* keys, __global ushort* key_ends, __global const WidthNeeds* width_needs,
     __global const uint* left_out, __global const ComponentColors* component_colors,
     __global const float* knots, __global ExtendedSplat* extended_splats, __global uint* key_counts,
     __global KeyBins* key_bins, __global const Grid* grids, __global uint* tile_counts,
     __global uint* tiles) {
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
-  const uint item = get_local_id(0), group = p.first_block + get_group_id(0);
+  const uint item = get_local_id(0), block = p.first_block + get_group_id(0);
   const uint bad_and_one = p.leaves_out_blocks ? left_out[get_group_id(0)] : 0;
-#ifdef COUNT_KEYS
   __local KeyBins bins;
-  if (item == 0) {
-    bins.least = ~0u;
-    bins.most = 0;
-  }
-#endif
   if (item == 0) {
     of_group.visible = of_group.too_sharp = of_group.around = 0;
     of_group.bad = bad_and_one > 0 ? bad_and_one - 1 : 0;
+    bins.least = ~0u;
+    bins.most = 0;
   }
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields, own_colors);
@@ -79,92 +70,53 @@ __kernel OF_GROUPS void project(
   if (i < p.end_particle && bad_and_one == 0)
     project_particle(i, &p, width_needs, &e, &columns, &lanes);
   uint count = lanes.visible != 0;
-#ifdef SORT_KEYS
   ulong key = 0;
-  if (count) key = sort_keys_of(columns, i, p.end_particle, lanes.sort_field, p);
-#endif
-#ifdef KEY_WINDOW
-  count = count && is_in_window(key, p);
-#endif
-#ifdef EXTENDED_NUMBERS
+  if (SORT_KEYS && count) {
+    key = sort_keys_of(columns, i, p.end_particle, lanes.sort_field, p);
+    count = is_in_window(key, p);
+  }
   Splat splat;
   ExtendedSplat extended;
-  count = count && extended_splat(i, p, e, columns, component_colors, knots, &splat, &extended);
-#elif defined(OUTPUT_SPLATS) || defined(COPIES)
   SplatArrays found;
-  if (count) spread(lanes, (INTEGER)(0), &found);
-#ifdef OUTPUT_SPLATS
-  Splat splat;
-  if (count) splat = splat_of(&found, 0);
-#endif
-#endif
-#ifdef COPIES
-  Copies copies;
+  if (EXTENDED_NUMBERS) {
+    count = count && extended_splat(i, p, e, columns, component_colors, knots, &splat, &extended);
+  } else if (count) {
+    spread(lanes, 0, &found);
+    splat = splat_of(&found, 0);
+  }
   float y = 0.0f;
-  if (count) {
-#ifdef EXTENDED_NUMBERS
-    y = pixels_from_middle(splat.y, splat, p);
-    copies = copies_in_picture(pixels_from_middle(splat.x, splat, p), y, splat.along_x.radius,
-                               splat.radius, p);
-#else
-    y = found.pixel_y[0];
-    copies = copies_in_picture(found.pixel_x[0], y, found.radius_x[0], found.radius[0], p);
-#endif
+  Copies copies = one_copy();
+  if (COPIES && count) {
+    copies = copies_of(&found, 0, &splat, p, &y);
     count =
         copies.first > copies.last ? 0u : (uint)((copies.last - copies.first) / copies.step + 1);
   }
-#endif
   uint total;
-#ifdef OUTPUT_SPLATS
-  uint slot = p.first_slot + offsets[group] + group_scan(count, sums, &total);
-  for (uint k = 0; k < count; ++k, ++slot) {
-    Splat listed = splat;
-#ifdef WHOLE_SECTORS
-    listed.unused = 0;
-#endif
-#ifdef COPIES
+  uint slot = p.first_slot + offsets[block] + group_scan(count, sums, &total);
+  for (uint k = 0; OUTPUT_SPLATS && k < count; ++k, ++slot) {
     const int copy = copies.first + (int)k * copies.step;
-    put_copy(&listed, copy, y, p);
-#endif
+    Splat listed = splat;
+    if (COPIES) put_copy(&listed, copy, y, p);
     splats[slot] = listed;
-#ifdef EXTENDED_NUMBERS
-#ifdef COPIES
-    extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
-#else
-    extended_splats[slot] = extended;
-#endif
-#endif
-#ifdef OUTPUT_KEYS
-    keys[slot] = (uint)(key >> 16);
-    if (!p.sort_by_field) key_ends[slot] = (ushort)key;
-    order[slot] = slot;
-#endif
+    if (EXTENDED_NUMBERS) extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
+    if (OUTPUT_KEYS) {
+      keys[slot] = (uint)(key >> 16);
+      if (!p.sort_by_field) key_ends[slot] = (ushort)key;
+    }
   }
-#else
-  group_scan(count, sums, &total);
   if (lanes.bad) atomic_inc(&of_group.bad);
   if (lanes.too_sharp) atomic_inc(&of_group.too_sharp);
-#ifdef COUNT_KEYS
-  if (count > 0) {
+  if (CLOUDS_AROUND && lanes.around) atomic_inc(&of_group.around);
+  if (COUNT_KEYS && count > 0) {
     const uint bin = bin_of(key, p);
     atomic_add(&key_counts[bin], count);
     atomic_min(&bins.least, bin);
     atomic_max(&bins.most, bin);
   }
-#endif
-#ifdef CLOUDS_AROUND
-  if (lanes.around) atomic_inc(&of_group.around);
-#endif
   barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) {
-#ifdef COUNT_KEYS
-    key_bins[get_group_id(0)] = bins;
-#endif
-    offsets[group] = total;
-    if (total > 0) atomic_add(&counts->visible, total);
-    if (of_group.bad > 0) atomic_add(&counts->bad, of_group.bad);
-    if (of_group.too_sharp > 0) atomic_add(&counts->too_sharp, of_group.too_sharp);
-    if (of_group.around > 0) atomic_add(&counts->around, of_group.around);
+    of_group.visible = total;
+    counts[block] = of_group;
+    if (COUNT_KEYS) key_bins[get_group_id(0)] = bins;
   }
-#endif
 }

@@ -3,13 +3,11 @@
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/extended/extended.cl"
+#include "kernels/extended/extended_value.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/place_extended.cl"
 #include "kernels/project/project.h"
 #include "kernels/project/view.cl"
-
-#ifndef EXTENDED_NUMBERS
-#include "kernels/extended/extended_value.cl"
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -32,14 +30,11 @@ INLINED INTEGER are_sharp(const ViewLanes view, VALUE sigma, VALUE peak,
 // So many particles may be copies of one.
 #define MOST_COPIES 400.0f
 
-#ifdef WIDE_ANGLE
 // Of the lanes that are asked for: places, and what widths follow from.
 typedef struct PlaceArrays {
   int asked[LANES];
   float x[LANES], x_low[LANES], y[LANES], y_low[LANES], scale[LANES];
-#ifdef WIDE_ANGLE
   float cos_latitude[LANES], sine_latitude[LANES];
-#endif
 } PlaceArrays;
 
 // Hardly any splats are.
@@ -57,16 +52,17 @@ SELDOM_CALLED void find_sharp_places(uint i, uint end, const Columns columns,
     places->y[k] = high_part(y);
     places->y_low[k] = low_part(y);
     places->scale[k] = high_part(place.scale);
-#ifdef COPIES
-    places->cos_latitude[k] = high_part(place.cos_latitude);
-    places->sine_latitude[k] = high_part(place.sine_latitude);
-#endif
+    if (COPIES) {
+      places->cos_latitude[k] = high_part(place.cos_latitude);
+      places->sine_latitude[k] = high_part(place.sine_latitude);
+    }
   }
 }
 
 // The view of these lanes as well as extended numbers know it.
-INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, uint i, uint end, const Columns columns,
-                             const ProjectParameters p, const ExtendedParameters e) {
+INLINED ViewLanes sharp_view_in_wide_angle(ViewLanes view, INTEGER sharp, uint i, uint end,
+                                           const Columns columns, const ProjectParameters p,
+                                           const ExtendedParameters e) {
   PlaceArrays places;
   STORE(sharp, places.asked);
   STORE(view.x, places.x);
@@ -74,23 +70,19 @@ INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, uint i, uint end, co
   STORE(view.y, places.y);
   STORE(view.y_low, places.y_low);
   STORE(view.scale, places.scale);
-#ifdef WIDE_ANGLE
   STORE(view.cos_latitude, places.cos_latitude);
   STORE(view.sine_latitude, places.sine_latitude);
-#endif
   find_sharp_places(i, end, columns, p, e, &places);
   view.x = LOAD(places.x);
   view.x_low = LOAD(places.x_low);
   view.y = LOAD(places.y);
   view.y_low = LOAD(places.y_low);
   view.scale = LOAD(places.scale);
-#ifdef WIDE_ANGLE
   view.cos_latitude = LOAD(places.cos_latitude);
   view.sine_latitude = LOAD(places.sine_latitude);
-#endif
   return view;
 }
-#else
+
 INLINED ExtendedValue offset_in_extended(VALUE position, const float* camera) {
   FloatPair rest;
   rest.high = -camera[1];
@@ -105,8 +97,8 @@ INLINED ExtendedValue along_in_extended(const ExtendedValue* d, const FloatPair*
 }
 
 // The view of these lanes as well as extended numbers know it.
-INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, const Vectors position,
-                             const ProjectParameters p, const ExtendedParameters e) {
+INLINED ViewLanes sharp_view_in_plane(ViewLanes view, INTEGER sharp, const Vectors position,
+                                      const ProjectParameters p, const ExtendedParameters e) {
   ExtendedValue d[3];
   d[0] = offset_in_extended(position.x, e.position[0]);
   d[1] = offset_in_extended(position.y, e.position[1]);
@@ -126,7 +118,6 @@ INLINED ViewLanes sharp_view(ViewLanes view, INTEGER sharp, const Vectors positi
   view.scale = choose(view.scale, high_value(scale), sharp);
   return view;
 }
-#endif
 
 // Of sharp splats, those that even the integers of splats' places would move too far, or that are
 // so bright that single precision of their widths would show where they have faded. Of all in the
@@ -135,9 +126,7 @@ INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE own_peak,
                               const ProjectParameters p) {
   const VALUE reach = 7.0f * sigma + 2.0f;
   INTEGER in_picture = view.y + reach >= p.seen_top & view.y - reach <= p.seen_bottom;
-#ifndef COPIES
-  in_picture &= view.x + reach >= p.seen_left & view.x - reach <= p.seen_right_end;
-#endif
+  if (!COPIES) in_picture &= view.x + reach >= p.seen_left & view.x - reach <= p.seen_right_end;
   // Copies of one may lie upon one another, up to a light of 1 or to what turned out to lie in one
   // place, and are misplaced alike.
   const VALUE all = max(crowd_peak, (VALUE)(1.0f));
@@ -149,4 +138,3 @@ INLINED INTEGER are_too_sharp(const ViewLanes view, VALUE sigma, VALUE own_peak,
   }
   return in_picture & ((sigma < p.too_sharp_width * slope) | (fading > p.most_fading));
 }
-#endif

@@ -7,8 +7,7 @@
 
 #pragma OPENCL FP_CONTRACT OFF
 
-#if defined(OUTPUT_KEYS) || defined(KEY_WINDOW)
-#define SORT_KEYS
+#define SORT_KEYS (OUTPUT_KEYS || COUNT_KEYS)
 
 // Order-preserving: smaller floats become smaller integers, -0 and +0 the same one.
 static inline INTEGER field_key(VALUE value) {
@@ -26,16 +25,11 @@ INLINED UNSIGNED_WIDE sort_keys_of(const Columns columns, uint i, uint end, VALU
   const UNSIGNED_WIDE key = depth_of(load_vectors(columns.positions, i, end), p.depth_key).key;
   return p.sort_descending ? key ^ 0xffffffffffffUL : key;
 }
-#endif
 
-#ifdef KEY_WINDOW
 static inline int is_in_window(ulong key, const ProjectParameters p) {
   return key >= (ulong)wide_integer(p.window_first) && key < (ulong)wide_integer(p.window_end);
 }
-#endif
 
-#ifdef COUNT_KEYS
 static inline uint bin_of(ulong key, const ProjectParameters p) {
   return (uint)(key >> p.bin_shift) & (KEY_BINS - 1u);
 }
-#endif

@@ -7,65 +7,46 @@
 #include "kernels/extended/extended_splat.h"
 #include "kernels/project/project.h"
 #include "kernels/project/sort_keys.cl"
+#include "kernels/project/splat_place.cl"
 #include "kernels/project/splat_widths.cl"
+#include "kernels/project/wide_angle.cl"
 
 #pragma OPENCL FP_CONTRACT OFF
 
-#if defined(TILES_IN_SPLAT) && defined(OUTPUT_SPLATS)
-#define TILES_OF_LANES
-#if LANES > 1 && !defined(ELLIPSES) && !defined(VECTOR_COLORS) && !defined(FINE_PLACES)
-#define SPLATS_OF_EIGHT_WORDS  // as many as lanes
-#endif
-#endif
-
-// Blocks of eight lanes have room for all their particles (projector.cpp): a splat that is not
-// visible is written, too, and the next one over it. Which these are no processor foresees.
-#if defined(SPLATS_OF_EIGHT_WORDS) && !defined(EXTENDED_NUMBERS)
-#define WRITES_ALL_LANES
-#endif
-
+#define TILES_OF_LANES (TILES_IN_SPLAT && OUTPUT_SPLATS)
+// As many words as lanes.
+#define SPLATS_OF_EIGHT_WORDS \
+  (TILES_OF_LANES && LANES > 1 && !ELLIPSES && !VECTOR_COLORS && !FINE_PLACES)
+// Blocks have room for all their particles (projector.cpp): a splat that is not visible is written,
+// too, and the next one over it. Which these are no processor foresees.
+#define WRITES_ALL_LANES (SPLATS_OF_EIGHT_WORDS && !EXTENDED_NUMBERS)
 // Where grids are in memory as a whole, and no splat has to have its tiles found again, all lanes
 // are counted in tiles that are known already.
-#if defined(WRITES_ALL_LANES) && defined(COUNT_TILES)
-#define COUNTS_ALL_LANES
-#endif
+#define COUNTS_ALL_LANES (WRITES_ALL_LANES && COUNT_TILES)
 
-// SplatLanes as arrays, to be written one by one.
+// LANES splats, to be written one by one.
 typedef struct SplatArrays {
   int visible[LANES];
-#ifdef SPLATS_OF_EIGHT_WORDS
-  Splat splats[LANES];
-#else
-  int x[LANES], y[LANES], component_and_grid[LANES];
-  float sigma[LANES], radius[LANES], weight[LANES], color[LANES];
-#ifdef ELLIPSES
-  float pixel_x[LANES], pixel_y[LANES], sigma_x[LANES], radius_x[LANES];
-#endif
-#ifdef FACE_OF_CUBE
-  float squared_width[LANES], footprint[LANES], secant2[LANES], part[LANES];
-#endif
-#ifdef VECTOR_COLORS
-  float red[LANES], green[LANES], blue[LANES];
-#endif
-#ifdef FINE_PLACES
-  int place_fractions[LANES];
-#endif
-#ifdef TILES_OF_LANES
-  int tiles[LANES];
-#endif
-#endif
-#ifdef COUNTS_ALL_LANES
+  Splat splats[LANES];  // of eight words; others are in `lanes`
+  SplatLanes lanes;
+  int tiles[LANES];  // TileLanes, packed, where there are any
+  long sort_keys[LANES];
+  // Where all lanes are counted.
   int grid[LANES];
   int from_corner[LANES], tiles_x[LANES];  // TileLanes
   uint have_several;                       // a bit for each that touches several tiles
   int has_known_tiles;
-#endif
-#ifdef SORT_KEYS
-  long sort_keys[LANES];
-#endif
 } SplatArrays;
 
-#ifdef SPLATS_OF_EIGHT_WORDS
+// Of one lane.
+INLINED float value_of(VALUE values, uint k) {
+  return ((const float*)&values)[k];
+}
+INLINED int integer_of(INTEGER values, uint k) {
+  return ((const int*)&values)[k];
+}
+
+#if LANES > 1
 // Word by word of eight splats to splat by splat, in three steps of neighbors.
 INLINED void store_eight_splats(float8 x, float8 y, float8 sigma, float8 radius, float8 weight,
                                 float8 color, float8 grid, float8 touched, Splat* splats) {
@@ -102,99 +83,81 @@ INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {
   store_eight_splats(x, y, s.sigma, s.radius, s.weight, s.color, grid, touched, splats);
 #endif
 }
+#else
+INLINED void store_splats(const SplatLanes s, INTEGER tiles, Splat* splats) {}
 #endif
 
-// `tiles` are TileLanes, packed, where there are any.
 INLINED void spread(const SplatLanes s, INTEGER tiles, SplatArrays* a) {
   STORE(s.visible, a->visible);
-#ifndef EXTENDED_NUMBERS
-#ifdef ELLIPSES
-  STORE(s.x, a->pixel_x);
-  STORE(s.y, a->pixel_y);
-  STORE(s.radius, a->radius);
-  STORE(s.radius_x, a->radius_x);
-#endif
-#ifdef SPLATS_OF_EIGHT_WORDS
-  store_splats(s, tiles, a->splats);
-#elif defined(OUTPUT_SPLATS)
-#ifdef TILES_OF_LANES
-  STORE(tiles, a->tiles);
-#endif
-  STORE(s.place.x, a->x);
-  STORE(s.place.y, a->y);
-  STORE(s.component_and_grid, a->component_and_grid);
-  STORE(s.sigma, a->sigma);
-  STORE(s.radius, a->radius);
-  STORE(s.weight, a->weight);
-  STORE(s.color, a->color);
-#ifdef ELLIPSES
-  STORE(s.sigma_x, a->sigma_x);
-#endif
-#ifdef FACE_OF_CUBE
-  STORE(s.face.squared_width, a->squared_width);
-  STORE(s.face.footprint, a->footprint);
-  STORE(s.face.secant2, a->secant2);
-  STORE(s.part, a->part);
-#endif
-#ifdef VECTOR_COLORS
-  STORE(s.own_color.x, a->red);
-  STORE(s.own_color.y, a->green);
-  STORE(s.own_color.z, a->blue);
-#endif
-#ifdef FINE_PLACES
-  STORE(s.place.fractions, a->place_fractions);
-#endif
-#endif
-#endif
+  if (SPLATS_OF_EIGHT_WORDS) {
+    store_splats(s, tiles, a->splats);
+  } else {
+    a->lanes = s;
+    if (TILES_OF_LANES) STORE(tiles, a->tiles);
+  }
 }
 
-#ifdef SPLATS_OF_EIGHT_WORDS
 // In one piece: a structure is copied in pieces.
-#define STORE_SPLAT(found, k, splat, to) \
-  store_global_eight(load_eight((const float*)((found).splats + (k))), (__global float*)(to))
-#else
-#define STORE_SPLAT(found, k, splat, to) *(to) = splat
-#endif
+INLINED void store_splat(const SplatArrays* found, uint k, const Splat splat, __global Splat* to) {
+  if (SPLATS_OF_EIGHT_WORDS)
+    store_global_eight(load_eight((const float*)(found->splats + k)), (__global float*)to);
+  else
+    *to = splat;
+}
 
-#if defined(OUTPUT_SPLATS) && !defined(EXTENDED_NUMBERS)
 INLINED Splat splat_of(const SplatArrays* a, uint k) {
-#ifdef SPLATS_OF_EIGHT_WORDS
-  return a->splats[k];
-#else
+  if (SPLATS_OF_EIGHT_WORDS) return a->splats[k];
+  const SplatLanes* const s = &a->lanes;
   Splat splat;
-  splat.x = a->x[k];
-  splat.y = a->y[k];
-  splat.component_and_grid = (uint)a->component_and_grid[k];
-  splat.sigma = a->sigma[k];
-  splat.radius = a->radius[k];
-  splat.weight = a->weight[k];
-  splat.color = a->color[k];
-#ifdef ELLIPSES
-  splat.along_x.sigma = a->sigma_x[k];
-  splat.along_x.radius = a->radius_x[k];
+  splat.x = integer_of(s->place.x, k);
+  splat.y = integer_of(s->place.y, k);
+  splat.component_and_grid = (uint)integer_of(s->component_and_grid, k);
+  splat.sigma = value_of(s->sigma, k);
+  splat.radius = value_of(s->radius, k);
+  splat.weight = value_of(s->weight, k);
+  splat.color = value_of(s->color, k);
+#if ELLIPSES
+  splat.along_x.sigma = value_of(s->sigma_x, k);
+  splat.along_x.radius = value_of(s->radius_x, k);
 #endif
-#ifdef FACE_OF_CUBE
-  splat.tilt.squared_width = a->squared_width[k];
-  splat.tilt.footprint = a->footprint[k];
-  splat.tilt.inverse_secant2 = 1.44269504f / a->secant2[k];
-  splat.tilt.scale = a->squared_width[k] / a->part[k];
-  splat.part = a->part[k];
+#if FACE_OF_CUBE
+  splat.part = value_of(s->part, k);
+  splat.tilt.squared_width = value_of(s->face.squared_width, k);
+  splat.tilt.footprint = value_of(s->face.footprint, k);
+  splat.tilt.inverse_secant2 = 1.44269504f / value_of(s->face.secant2, k);
+  splat.tilt.scale = splat.tilt.squared_width / splat.part;
 #endif
-#ifdef VECTOR_COLORS
-  splat.own_color.rgb[0] = a->red[k];
-  splat.own_color.rgb[1] = a->green[k];
-  splat.own_color.rgb[2] = a->blue[k];
+#if VECTOR_COLORS
+  splat.own_color.rgb[0] = value_of(s->own_color.x, k);
+  splat.own_color.rgb[1] = value_of(s->own_color.y, k);
+  splat.own_color.rgb[2] = value_of(s->own_color.z, k);
 #endif
-#ifdef FINE_PLACES
-  splat.place_fractions = (uint)a->place_fractions[k];
+#if FINE_PLACES
+  splat.place_fractions = (uint)integer_of(s->place.fractions, k);
 #endif
-#ifdef TILES_IN_SPLAT
+#if TILES_IN_SPLAT
   splat.tiles = (uint)a->tiles[k];
 #endif
+#if WHOLE_SECTORS
+  splat.unused = 0;
+#endif
   return splat;
-#endif
 }
-#endif
+
+// Of a panorama, in which a splat may show several times.
+INLINED Copies copies_of(const SplatArrays* found, uint k, const Splat* splat,
+                         const ProjectParameters p, float* y) {
+  if (!COPIES) return one_copy();
+  if (EXTENDED_NUMBERS) {
+    *y = pixels_from_middle(splat->y, *splat, p);
+    return copies_in_picture(pixels_from_middle(splat->x, *splat, p), *y, RADIUS_X(*splat),
+                             splat->radius, p);
+  }
+  const SplatLanes* const s = &found->lanes;
+  *y = value_of(s->y, k);
+  return copies_in_picture(value_of(s->x, k), *y, value_of(s->radius_x, k), value_of(s->radius, k),
+                           p);
+}
 
 static inline uint count_true(INTEGER mask) {
   int lanes[LANES];
@@ -211,7 +174,6 @@ typedef struct ProjectTargets {
   __global Splat* splats;
   __global uint* keys;        // the upper 32 bits of sort keys
   __global ushort* key_ends;  // the 16 bits below, of depths
-  __global uint* order;       // in the shape for GPUs
   __global ExtendedSplat* extended_splats;
   __global uint* key_counts;   // of each bin (sort_keys.cl)
   __global KeyBins* key_bins;  // of each block

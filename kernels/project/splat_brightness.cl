@@ -27,10 +27,10 @@ static inline VALUE value_of_octave(__global const float* values, int count, INT
 // The largest of E and A at weight 1.
 INLINED VALUE brightest_color(const ParticleLanes particles, const ProjectParameters p) {
   VALUE brightest = p.peak_color;
-#ifdef VECTOR_COLORS
-  const Vectors own = particles.own_color;
-  brightest = max(brightest * max(own.x, max(own.y, own.z)), (VALUE)(p.peak_own));
-#endif
+  if (VECTOR_COLORS) {
+    const Vectors own = particles.own_color;
+    brightest = max(brightest * max(own.x, max(own.y, own.z)), (VALUE)(p.peak_own));
+  }
   return brightest;
 }
 
@@ -43,11 +43,7 @@ INLINED VALUE counted_part(VALUE amplitude, const ProjectParameters p) {
 
 // The flux, not the peak, limits what a splat below a pixel can do to a pixel.
 INLINED VALUE share_of_peak(const WidthLanes widths) {
-#ifdef ELLIPSES
-  const VALUE area = DRAWN_SIGMA(widths) * DRAWN_SIGMA_X(widths);
-#else
-  const VALUE area = widths.sigma * widths.sigma;
-#endif
+  const VALUE area = drawn_sigma(widths) * drawn_sigma_x(widths);
   return min((VALUE)(1.0f), 3.2f * area);
 }
 
@@ -55,18 +51,14 @@ INLINED VALUE share_of_peak(const WidthLanes widths) {
 INLINED BrightnessLanes find_brightness(VALUE own_peak, const WidthLanes widths,
                                         __global const WidthNeeds* needs,
                                         const ProjectParameters p) {
-  const VALUE sigma = DRAWN_SIGMA(widths);
+  const VALUE sigma = drawn_sigma(widths);
   BrightnessLanes b;
   b.own_peak = own_peak;
   b.crowd_peak = b.own_peak;
   b.farther = (VALUE)(0.0f);
   b.bright = b.own_peak > p.bright_peak;
   if (p.octaves_in_need == 0) return b;
-#ifdef ELLIPSES
-  const VALUE width2 = sigma * max(sigma, DRAWN_SIGMA_X(widths)) + p.widening;
-#else
-  const VALUE width2 = sigma * sigma + p.widening;
-#endif
+  const VALUE width2 = sigma * max(sigma, drawn_sigma_x(widths)) + p.widening;
   const INTEGER octave =
       clamp((power_of_two(width2) >> 1) + 1, (INTEGER)(0), (INTEGER)(WIDTH_OCTAVES - 1));
   b.farther = value_of_octave(needs->farther, p.octaves_in_need, octave);

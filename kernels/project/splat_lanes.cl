@@ -1,6 +1,7 @@
 // Particles to splats, LANES at a time, step by step.
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
+#include "kernels/project/around.cl"
 #include "kernels/project/limits.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"
@@ -10,9 +11,6 @@
 #include "kernels/project/splat_sampling.cl"
 #include "kernels/project/splat_widths.cl"
 #include "kernels/project/view.cl"
-#ifdef CLOUDS_AROUND
-#include "kernels/project/around.cl"
-#endif
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -28,17 +26,17 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   s.sort_field = particles.sort_field;
   s.bad = particles.exists & (good == 0);
   s.too_sharp = (INTEGER)(0);
-#ifdef CLOUDS_AROUND
-  s.around = particles.exists & good & are_around(particles.h, view.offset, p);
-  good &= s.around == 0;
-#endif
+  if (CLOUDS_AROUND) {
+    s.around = particles.exists & good & are_around(particles.h, view.offset, p);
+    good &= s.around == 0;
+  }
   WidthLanes widths = find_widths(particles.h, view, p);
   view = place_of_splat(view, widths);
-#ifdef EXTENDED_NUMBERS
-  s.visible = particles.exists & good & may_be_seen_extended(view, widths, p);
-  s.unclear = s.visible;
-  return s;
-#else
+  if (EXTENDED_NUMBERS) {
+    s.visible = particles.exists & good & may_be_seen_extended(view, widths, p);
+    s.unclear = s.visible;
+    return s;
+  }
   const LimitLanes limits = compare_with_limits(view, widths.h, p);
   s.unclear = limits.unclear;
   s.visible = particles.exists & good & limits.may_be_within & may_be_seen(view, widths, p);
@@ -46,23 +44,18 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
 
   const VALUE brightest = brightest_color(particles, p), share = share_of_peak(widths);
   VALUE center_weight = find_weight(particles.weight, view, widths, p);
-#ifdef FACE_OF_CUBE
-  center_weight *= widths.part;
-#endif
+  if (FACE_OF_CUBE) center_weight *= widths.part;
   const VALUE weight = limited_weight(center_weight, brightest * share) *
                        normalized(particles.intensity, p.intensity);
   const VALUE amplitude = weight * brightest;
   const BrightnessLanes brightness =
       find_brightness(amplitude * share * counted_part(amplitude, p), widths, needs, p);
-  const INTEGER sharp = s.visible & are_sharp(view, NARROW_SIGMA(widths), brightness.crowd_peak, p);
+  const INTEGER sharp = s.visible & are_sharp(view, narrow_sigma(widths), brightness.crowd_peak, p);
   if (ANY(sharp)) {
-    s.too_sharp = sharp & are_too_sharp(view, NARROW_SIGMA(widths), brightness.own_peak,
+    s.too_sharp = sharp & are_too_sharp(view, narrow_sigma(widths), brightness.own_peak,
                                         brightness.crowd_peak, p);
-#ifdef WIDE_ANGLE
-    view = sharp_view(of_center, sharp, i, end, columns, p, e);
-#else
-    view = sharp_view(of_center, sharp, particles.position, p, e);
-#endif
+    view = WIDE_ANGLE ? sharp_view_in_wide_angle(of_center, sharp, i, end, columns, p, e)
+                      : sharp_view_in_plane(of_center, sharp, particles.position, p, e);
     widths = find_widths(particles.h, view, p);
     view = place_of_splat(view, widths);
   }
@@ -72,16 +65,11 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                            : truncation_extent(brightness.own_peak, brightness.farther, p);
   place_on_grid(&s, view, widths, sampled, brightness, extent, p);
   keep_those_that_reach(&s, p);
-  s.weight = restored_weight(s.weight, DRAWN_SIGMA(widths), extent, sampled.by_mean,
+  s.weight = restored_weight(s.weight, drawn_sigma(widths), extent, sampled.by_mean,
                              are_placed_as_stencils(s), p);
   s.color = normalized(particles.color, p.color);
   s.sigma = choose(s.sigma, -s.sigma, brightness.bright & sampled.by_mean);
-#ifdef ELLIPSES
-  s.sigma_x = choose(s.sigma_x, -s.sigma_x, brightness.bright & sampled.by_mean_x);
-#endif
-#ifdef VECTOR_COLORS
-  s.own_color = particles.own_color;
-#endif
+  if (ELLIPSES) s.sigma_x = choose(s.sigma_x, -s.sigma_x, brightness.bright & sampled.by_mean_x);
+  if (VECTOR_COLORS) s.own_color = particles.own_color;
   return s;
-#endif
 }

@@ -11,14 +11,11 @@
 // In units of 2^coarser of the grid's.
 typedef struct PlaceLanes {
   INTEGER x, y, coarser;
-#ifdef FINE_PLACES
-  INTEGER fractions;  // as in Splat
-#endif
+  INTEGER fractions;  // as in Splat, of fine places
 } PlaceLanes;
 
-#ifdef FINE_PLACES
 // To the nearest unit; `fraction` takes 2^16 of what is left of the sum of `high` and `low`.
-INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel, INTEGER* fraction) {
+INLINED INTEGER in_fine_units(VALUE high, VALUE low, VALUE units_per_pixel, INTEGER* fraction) {
   const VALUE units = high * units_per_pixel;
   const INTEGER whole = TO_INTEGER(units);
   const VALUE rest = (units - TO_VALUE(whole)) + low * units_per_pixel;
@@ -26,10 +23,10 @@ INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel, INTEGER* 
   *fraction = TO_INTEGER((rest - TO_VALUE(nearest)) * 65534.0f);
   return whole + nearest;
 }
-#else
+
 // To less than a unit, and to half of one where `low` is known, what the last digit of `high`
 // leaves.
-INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel, INTEGER* fraction) {
+INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel) {
   const VALUE units = high * units_per_pixel;
   const INTEGER whole = TO_INTEGER(units);
   if (!ANY(low != 0.0f)) return whole;
@@ -37,7 +34,6 @@ INLINED INTEGER in_units(VALUE high, VALUE low, VALUE units_per_pixel, INTEGER* 
   const VALUE to_nearest = choose((VALUE)(-0.5f), (VALUE)(0.5f), rest > 0.0f);
   return whole + select((INTEGER)(0), TO_INTEGER(rest + to_nearest), low != 0.0f);
 }
-#endif
 
 // From pixels of the grid from its middle. The units hold `farthest`, within which the splat lies
 // and all copies of it that are drawn.
@@ -48,16 +44,18 @@ INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, VALUE
   PlaceLanes place;
   place.coarser = max(beyond, (INTEGER)(0));
   const VALUE units_per_pixel = AS_VALUE((127 + p.place_bits - place.coarser) << 23);
-  INTEGER fraction_x, fraction_y;
-  place.x = in_units(x, x_low, units_per_pixel, &fraction_x);
-  place.y = in_units(y, y_low, units_per_pixel, &fraction_y);
-#ifdef FINE_PLACES
-  place.fractions = (fraction_x & 0xffff) | (fraction_y << 16);
-#endif
+  if (FINE_PLACES) {
+    INTEGER fraction_x, fraction_y;
+    place.x = in_fine_units(x, x_low, units_per_pixel, &fraction_x);
+    place.y = in_fine_units(y, y_low, units_per_pixel, &fraction_y);
+    place.fractions = (fraction_x & 0xffff) | (fraction_y << 16);
+  } else {
+    place.x = in_units(x, x_low, units_per_pixel);
+    place.y = in_units(y, y_low, units_per_pixel);
+  }
   return place;
 }
 
-#ifdef COPIES
 static inline long in_long(struct WideInteger units) {
   return (long)((ulong)units.low | ((ulong)units.high << 32));
 }
@@ -69,16 +67,13 @@ static inline void put_copy(Splat* splat, int copy, float y, const ProjectParame
   splat->x += (int)((copy * in_long(p.period_units)) >> (coarser + 1));
   if ((copy & 1) == 0) return;
   splat->y = (int)(in_long(OF_POLE(p.twice_pole_units, pole_of(y, p))) >> coarser) - splat->y;
-#ifdef FINE_PLACES
+#if FINE_PLACES
   const int fraction_y = -((int)splat->place_fractions >> 16);
   splat->place_fractions = (splat->place_fractions & 0xffffu) | ((uint)fraction_y << 16);
 #endif
 }
-#endif
 
-#ifdef EXTENDED_NUMBERS
 static inline float pixels_from_middle(int place, const Splat splat, const ProjectParameters p) {
   const int bits = p.place_bits - (int)(splat.component_and_grid >> 24);
   return (float)place * as_float((127 - bits) << 23);
 }
-#endif

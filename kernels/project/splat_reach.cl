@@ -18,16 +18,12 @@ INLINED VALUE distance_beyond(const SplatLanes s, float left, float right_end, f
   const INTEGER level = level_of(s.grid, p);
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   VALUE beyond = max(top * shrink - s.y, s.y - bottom * shrink);
-#ifndef COPIES
+  if (COPIES) return beyond;
   VALUE beyond_x = max(left * shrink - s.x, s.x - right_end * shrink);
-#ifdef ELLIPSES
   // With the half pixel that the first center lies within: it reaches just where one as wide as it
   // is high does.
-  beyond_x = min(beyond_x, (beyond_x + 0.5f) * (s.radius / s.radius_x) - 0.5f);
-#endif
-  beyond = max(beyond, beyond_x);
-#endif
-  return beyond;
+  if (ELLIPSES) beyond_x = min(beyond_x, (beyond_x + 0.5f) * (s.radius / s.radius_x) - 0.5f);
+  return max(beyond, beyond_x);
 }
 
 // Whether something of it shows in the whole picture, of splats on grids beside the picture's own.
@@ -53,21 +49,17 @@ INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
   const VALUE room = choose((VALUE)(0.0f), (VALUE)(p.beside), s->grid > 0);
   // The first pixel's center lies half a pixel within.
   const INTEGER reaches = (beyond + 0.5f <= s->radius + room) & shows_in_picture(*s, p);
-#ifdef COPIES
-  s->visible &= reaches;
-#else
+  if (COPIES) {
+    s->visible &= reaches;
+    return;
+  }
   // Stencils leave nothing out.
   const INTEGER ends_short = (reaches == 0) & (beyond <= 2.0f * s->radius) &
                              (are_placed_as_stencils(*s) == 0) &
                              (INTEGER)(p.kernel_cut > 0.0f ? 0 : -1);
   s->visible &= reaches | ends_short;
-#ifdef FACE_OF_CUBE
-  const VALUE in_widths = beyond / max(s->farther, (VALUE)(1.0f));
-#else
-  const VALUE in_widths = beyond;
-#endif
+  const VALUE in_widths = FACE_OF_CUBE ? beyond / max(s->farther, (VALUE)(1.0f)) : beyond;
   s->radius = choose(s->radius, -(in_widths + 1.0f), ends_short);
-#endif
 }
 
 // Half of the light beyond the square goes back into it: the sum of many errs by as much
@@ -82,48 +74,48 @@ INLINED VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER b
   return choose(weight, weight * (1.0f + p.restored_light * cut_off), faint);
 }
 
-#ifdef EXTENDED_NUMBERS
 // Only what certainly lies off the picture is left out; extended_splat() decides. Ten sigma
 // reach beyond the truncation of any amplitude that single precision holds.
-#ifdef WIDE_ANGLE
 // Directions in single precision are known to 1e-6, beside an eye that is nearly as far away as
 // the particle to 5e-4; near a pole, or behind a fisheye, that is as wide as it magnifies.
-INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths,
+INLINED INTEGER is_off_in_wide_angle(const ViewLanes view, const WidthLanes widths,
                                      const ProjectParameters p) {
   const float focal = p.pixels_per_length;
-#ifdef FACE_OF_CUBE
-  const VALUE sigma =
-      max(widths.face.sigma_x, widths.face.sigma_y) * face_reach(widths.face, (VALUE)(10.0f), p);
-#else
-  const VALUE sigma = widths.sigma;
-#endif
+  VALUE sigma = widths.sigma;
+  if (FACE_OF_CUBE) {
+    sigma =
+        max(widths.face.sigma_x, widths.face.sigma_y) * face_reach(widths.face, (VALUE)(10.0f), p);
+  }
   const VALUE reach =
       10.0f * fabs(sigma) + 4.0f + 5e-3f * focal + 1e-4f * (fabs(view.x) + fabs(view.y));
   INTEGER off = view.y + reach<p.top | view.y - reach> p.bottom;
-#ifdef COPIES
-  const VALUE reach_x = 10.0f * fabs(widths.sigma_x) + 4.0f +
-                        1e-3f * focal / max(view.cos_latitude - 1e-3f, (VALUE)(0.0f));
-  off |= ceil((p.left - reach_x - view.x) / p.period) >
-         floor((p.right_end + reach_x - view.x) / p.period);
-#else
-  off |= view.x + reach<p.left | view.x - reach> p.right_end;
-#endif
-#ifdef PROJECTION_FISHEYE
-  const VALUE x = view.x - p.center_x, y = view.y - p.center_y;
-  off &= x * x + y * y < 9.6f * focal * focal;
-#endif
-  return off == 0;
+  if (COPIES) {
+    const VALUE reach_x = 10.0f * fabs(widths.sigma_x) + 4.0f +
+                          1e-3f * focal / max(view.cos_latitude - 1e-3f, (VALUE)(0.0f));
+    off |= ceil((p.left - reach_x - view.x) / p.period) >
+           floor((p.right_end + reach_x - view.x) / p.period);
+  } else {
+    off |= view.x + reach<p.left | view.x - reach> p.right_end;
+  }
+  if (PROJECTION_FISHEYE) {
+    const VALUE x = view.x - p.center_x, y = view.y - p.center_y;
+    off &= x * x + y * y < 9.6f * focal * focal;
+  }
+  return off;
 }
-#else
-INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths,
-                                     const ProjectParameters p) {
+
+INLINED INTEGER is_off_in_plane(const ViewLanes view, const WidthLanes widths,
+                                const ProjectParameters p) {
   const Vectors d = view.offset;
   const VALUE rounding = 1e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * fabs(view.scale);
   const VALUE reach =
       10.0f * fabs(widths.sigma) + 4.0f + rounding + 1e-4f * (fabs(view.x) + fabs(view.y));
-  const INTEGER off = view.x + reach<p.left | view.x - reach> p.right_end |
-                      view.y + reach<p.top | view.y - reach> p.bottom;
-  return off == 0;
+  return view.x + reach<p.left | view.x - reach> p.right_end |
+         view.y + reach<p.top | view.y - reach> p.bottom;
 }
-#endif
-#endif
+
+INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths,
+                                     const ProjectParameters p) {
+  return (WIDE_ANGLE ? is_off_in_wide_angle(view, widths, p) : is_off_in_plane(view, widths, p)) ==
+         0;
+}

@@ -17,16 +17,14 @@
 typedef struct SampledLanes {
   INTEGER by_mean;
   VALUE sigma, weight;
-#ifdef ELLIPSES
-  INTEGER by_mean_x;
+  INTEGER by_mean_x;  // of ellipses
   VALUE sigma_x;
-#endif
 } SampledLanes;
 
 INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLanes brightness,
                                      VALUE weight, const ProjectParameters p) {
   SampledLanes s;
-  const VALUE sigma = DRAWN_SIGMA(widths);
+  const VALUE sigma = drawn_sigma(widths), sigma_x = drawn_sigma_x(widths);
   VALUE mean_limit = (VALUE)(p.mean_sigma);
   if (ANY(brightness.bright)) {
     mean_limit = choose(mean_limit, bright_mean_limit(brightness.crowd_peak, p), brightness.bright);
@@ -34,21 +32,18 @@ INLINED SampledLanes choose_sampling(const WidthLanes widths, const BrightnessLa
   s.by_mean = sigma < mean_limit;
   s.sigma = sigma;
   s.weight = weight;
-#ifdef ELLIPSES
-  const VALUE sigma_x = DRAWN_SIGMA_X(widths);
   s.by_mean_x = sigma_x < mean_limit;
   s.sigma_x = sigma_x;
-#endif
   if (p.widening == 0.0f) return s;
   const VALUE widened2 = sigma * sigma + p.widening;
   s.sigma = choose(sqrt(widened2), sigma, s.by_mean);
-#ifdef ELLIPSES
-  s.sigma_x = choose(sqrt(sigma_x * sigma_x + p.widening), sigma_x, s.by_mean_x);
-  s.weight = weight * ((sigma / s.sigma) * (sigma_x / s.sigma_x));
-#else
-  // The square of the quotient of both widths, which does not wait for the root.
-  s.weight = choose(weight * (1.0f - p.widening / widened2), weight, s.by_mean);
-#endif
+  if (ELLIPSES) {
+    s.sigma_x = choose(sqrt(sigma_x * sigma_x + p.widening), sigma_x, s.by_mean_x);
+    s.weight = weight * ((sigma / s.sigma) * (sigma_x / s.sigma_x));
+  } else {
+    // The square of the quotient of both widths, which does not wait for the root.
+    s.weight = choose(weight * (1.0f - p.widening / widened2), weight, s.by_mean);
+  }
   return s;
 }
 
@@ -82,31 +77,31 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   // the model's sigma, not of the widened one, and means always keep the pixel at its center.
   const VALUE edge = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean);
   const float cut_edge = p.widening > 0.0f ? 0.5f : 0.0f;
-  s->radius = p.kernel_cut > 0.0f ? p.kernel_cut * DRAWN_SIGMA(widths) * shrink + cut_edge
+  s->radius = p.kernel_cut > 0.0f ? p.kernel_cut * drawn_sigma(widths) * shrink + cut_edge
                                   : extent * s->sigma + edge;
   s->radius = choose(s->radius, (VALUE)(STENCIL_RADIUS), stencil);
   s->sigma = choose(s->sigma, -s->sigma, stencil);
-#ifdef ELLIPSES
-  // Such pictures have no coarse grids.
-  const VALUE edge_x = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean_x);
-  s->sigma_x = sampled.sigma_x;
-  s->radius_x = p.kernel_cut > 0.0f ? p.kernel_cut * DRAWN_SIGMA_X(widths) + cut_edge
-                                    : extent * sampled.sigma_x + edge_x;
-#endif
-#ifdef FACE_OF_CUBE
-  s->face = widths.face;
-  s->part = widths.part;
-  s->farther = face_reach(widths.face, extent, p);
-  s->radius *= s->farther;
-  s->radius_x *= s->farther;
-#endif
+  if (ELLIPSES) {
+    // Such pictures have no coarse grids.
+    const VALUE edge_x = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean_x);
+    s->sigma_x = sampled.sigma_x;
+    s->radius_x = p.kernel_cut > 0.0f ? p.kernel_cut * drawn_sigma_x(widths) + cut_edge
+                                      : extent * sampled.sigma_x + edge_x;
+  }
+  if (FACE_OF_CUBE) {
+    s->face = widths.face;
+    s->part = widths.part;
+    s->farther = face_reach(widths.face, extent, p);
+    s->radius *= s->farther;
+    s->radius_x *= s->farther;
+  }
   s->x = view.x * shrink;
   s->y = view.y * shrink;
   VALUE farthest = max(fabs(s->x), fabs(s->y));
-#ifdef COPIES
-  farthest = max(farthest, s->radius_x + max(-p.left, p.right_end));
-  farthest = max(farthest, s->radius + max(-p.top, p.bottom) + 2.0f);
-#endif
+  if (COPIES) {
+    farthest = max(farthest, s->radius_x + max(-p.left, p.right_end));
+    farthest = max(farthest, s->radius + max(-p.top, p.bottom) + 2.0f);
+  }
   s->place = splat_place(s->x, view.x_low * shrink, s->y, view.y_low * shrink, farthest, p);
   s->component_and_grid = (INTEGER)((int)p.component) | (s->grid << 16) | (s->place.coarser << 24);
 }

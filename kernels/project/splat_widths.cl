@@ -16,25 +16,17 @@ typedef struct SplatLanes {
   INTEGER visible, bad;
   INTEGER unclear;  // of the visible: those of which depth keys decide whether they are
   INTEGER too_sharp;
-#ifdef CLOUDS_AROUND
   INTEGER around;  // good ones around the camera, which are neither visible nor too sharp
-#endif
   INTEGER grid;
   VALUE x, y;  // pixels of the grid from its middle
   PlaceLanes place;
   INTEGER component_and_grid;  // as in Splat
   VALUE farthest_shown;        // pixels of the grid beyond which nothing of the splat shows
   VALUE sigma, radius, weight, color;
-#ifdef ELLIPSES
-  VALUE sigma_x, radius_x;
-#endif
-#ifdef FACE_OF_CUBE
-  FaceEllipse face;
-  VALUE farther, part;  // face_reach(), face_part()
-#endif
-#ifdef VECTOR_COLORS
+  VALUE sigma_x, radius_x;  // of ellipses
+  FaceEllipse face;         // on a face of a cube
+  VALUE farther, part;      // face_reach(), face_part()
   Vectors own_color;
-#endif
   VALUE sort_field;
 } SplatLanes;
 
@@ -42,26 +34,23 @@ typedef struct SplatLanes {
 typedef struct WidthLanes {
   VALUE h;                  // in lengths
   VALUE sigma_true, sigma;  // without and with kernel.min_radius and NARROWEST_SIGMA
-#ifdef COPIES
-  VALUE sigma_x;
-  VALUE nearer;  // by which it lies nearer to the pole
-#endif
-#ifdef FACE_OF_CUBE
-  FaceEllipse face;
-  VALUE part;  // face_part()
-#endif
+  VALUE sigma_x;            // of a panorama
+  VALUE nearer;             // by which it lies nearer to the pole there
+  FaceEllipse face;         // on a face of a cube
+  VALUE part;               // face_part()
 } WidthLanes;
 
 // As they are drawn, along y and x, and of the narrower side.
-#ifdef FACE_OF_CUBE
-#define DRAWN_SIGMA(widths) ((widths).face.sigma_y)
-#define DRAWN_SIGMA_X(widths) ((widths).face.sigma_x)
-#define NARROW_SIGMA(widths) ((widths).face.narrow)
-#else
-#define DRAWN_SIGMA(widths) ((widths).sigma)
-#define DRAWN_SIGMA_X(widths) ((widths).sigma_x)
-#define NARROW_SIGMA(widths) ((widths).sigma)
-#endif
+INLINED VALUE drawn_sigma(const WidthLanes widths) {
+  return FACE_OF_CUBE ? widths.face.sigma_y : widths.sigma;
+}
+INLINED VALUE drawn_sigma_x(const WidthLanes widths) {
+  if (FACE_OF_CUBE) return widths.face.sigma_x;
+  return ELLIPSES ? widths.sigma_x : widths.sigma;
+}
+INLINED VALUE narrow_sigma(const WidthLanes widths) {
+  return FACE_OF_CUBE ? widths.face.narrow : widths.sigma;
+}
 
 INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectParameters p) {
   WidthLanes widths;
@@ -72,29 +61,28 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
                           ? sqrt(widths.sigma_true * widths.sigma_true + sigma_floor * sigma_floor)
                           : widths.sigma_true;
   widths.sigma = max(sigma, (VALUE)(NARROWEST_SIGMA));
-#ifdef FACE_OF_CUBE
-  const float per_focal = 1.0f / p.pixels_per_length;
-  widths.face = face_ellipse(widths.sigma, (view.x - p.center_x) * per_focal,
-                             (view.y - p.center_y) * per_focal, p);
-  widths.part = face_part(widths.face, (VALUE)(p.reach), p);
-#endif
-#ifdef COPIES
-  const PanoramaEllipse ellipse =
-      panorama_ellipse(widths.sigma, view.cos_latitude, view.sine_latitude, p);
-  widths.sigma_x = ellipse.sigma_x;
-  widths.nearer = ellipse.nearer;
-#endif
+  if (FACE_OF_CUBE) {
+    const float per_focal = 1.0f / p.pixels_per_length;
+    widths.face = face_ellipse(widths.sigma, (view.x - p.center_x) * per_focal,
+                               (view.y - p.center_y) * per_focal, p);
+    widths.part = face_part(widths.face, (VALUE)(p.reach), p);
+  }
+  if (COPIES) {
+    const PanoramaEllipse ellipse =
+        panorama_ellipse(widths.sigma, view.cos_latitude, view.sine_latitude, p);
+    widths.sigma_x = ellipse.sigma_x;
+    widths.nearer = ellipse.nearer;
+  }
   return widths;
 }
 
 // Where a splat of these widths lies. What the sum rounds off goes to the low part.
 INLINED ViewLanes place_of_splat(ViewLanes view, const WidthLanes widths) {
-#ifdef COPIES
+  if (!COPIES) return view;
   const VALUE shift = copysign(widths.nearer, view.sine_latitude), y = view.y + shift;
   const VALUE added = y - view.y;
   view.y_low += (view.y - (y - added)) + (shift - added);
   view.y = y;
-#endif
   return view;
 }
 
@@ -121,23 +109,17 @@ INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widt
 // picture's splats.
 INLINED INTEGER may_be_seen(const ViewLanes view, const WidthLanes widths,
                             const ProjectParameters p) {
-#ifdef FACE_OF_CUBE
-  const VALUE farther = face_reach(widths.face, (VALUE)(p.reach), p);
-#else
-  const float farther = 1.0f;
-#endif
-  const VALUE reach = p.reach * DRAWN_SIGMA(widths) * farther + 2.0f;
+  VALUE reach = p.reach * drawn_sigma(widths), reach_x = reach;
+  if (FACE_OF_CUBE) {
+    const VALUE farther = face_reach(widths.face, (VALUE)(p.reach), p);
+    reach *= farther;
+    reach_x = p.reach * drawn_sigma_x(widths) * farther;
+  }
+  reach += 2.0f;
+  reach_x += 2.0f;
   INTEGER seen = (view.y + reach >= p.seen_top) & (view.y - reach <= p.seen_bottom);
-#ifdef WIDE_ANGLE
-  seen &= view.seen;
-#endif
-#ifdef FACE_OF_CUBE
-  const VALUE reach_x = p.reach * DRAWN_SIGMA_X(widths) * farther + 2.0f;
-#else
-  const VALUE reach_x = reach;
-#endif
-#ifndef COPIES  // beside the picture they may reach it
-  seen &= view.x + reach_x >= p.seen_left & view.x - reach_x <= p.seen_right_end;
-#endif
-  return seen;
+  if (WIDE_ANGLE) seen &= view.seen;
+  // Copies of what is beside the picture may reach it.
+  if (COPIES) return seen;
+  return seen & (view.x + reach_x >= p.seen_left & view.x - reach_x <= p.seen_right_end);
 }

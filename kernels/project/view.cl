@@ -35,14 +35,11 @@ typedef struct ViewLanes {
   VALUE x, x_low, y, y_low;  // pixels from the picture's middle
   VALUE scale;               // pixels per length of a width
   VALUE place_error;         // of x and y, in roundings: 2^-24 pixels (docs/dev/accuracy.md)
-#ifdef WIDE_ANGLE
-  INTEGER seen;
+  INTEGER seen;              // of wide angles: what they show
   VALUE cos_latitude, sine_latitude;  // equirectangular
-#endif
 } ViewLanes;
 
-#ifdef WIDE_ANGLE
-INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
+INLINED ViewLanes view_in_wide_angle(const ParticleLanes particles, const ProjectParameters p) {
   ViewLanes view;
   const Vectors d = offset_from(particles.position, p.position_high, p.position_low);
   const VALUE squared = squared_distance(d, p.length_scale);
@@ -61,9 +58,11 @@ INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectPar
                      p.place_error_per_pixel * max(fabs(view.x), fabs(view.y)) + p.place_error;
   return view;
 }
-#else
-INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
+
+INLINED ViewLanes view_in_plane(const ParticleLanes particles, const ProjectParameters p) {
   ViewLanes view;
+  view.seen = (INTEGER)(-1);
+  view.cos_latitude = view.sine_latitude = (VALUE)(0.0f);
   const Vectors d = offset_from(particles.position, p.position_high, p.position_low);
   view.offset = d;
   view.depth = along(d, p.forward);
@@ -83,7 +82,10 @@ INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectPar
                      p.place_error_per_pixel * max(fabs(view.x), fabs(view.y)) + p.place_error;
   return view;
 }
-#endif
+
+INLINED ViewLanes view_particles(const ParticleLanes particles, const ProjectParameters p) {
+  return WIDE_ANGLE ? view_in_wide_angle(particles, p) : view_in_plane(particles, p);
+}
 
 // What single precision says of the near and far limits.
 typedef struct LimitLanes {

@@ -3,8 +3,6 @@
 #include "kernels/common/lanes.cl"
 #include "kernels/project/project.h"
 
-#ifdef WIDE_ANGLE
-
 #pragma OPENCL FP_CONTRACT OFF
 
 typedef struct WideAnglePoint {
@@ -44,34 +42,33 @@ static inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE
   point.scale = focal / distance;
   point.cos_latitude = point.magnification = (VALUE)(1.0f);
   point.sine_latitude = y;
-#if defined(PROJECTION_FISHEYE)
-  const VALUE sine_off_axis = sqrt(x * x + y * y);
-  const VALUE angle = atan2(sine_off_axis, z);
-  const INTEGER off_axis = sine_off_axis > 0.0f;
-  const VALUE per_sine = focal * angle / max(sine_off_axis, (VALUE)(FLT_MIN));
-  point.magnification = max(angle / max(sine_off_axis, (VALUE)(FLT_MIN)), (VALUE)(1.0f));
-  point.x = choose(focal * angle, x * per_sine, off_axis);
-  point.y = choose((VALUE)(0.0f), y * per_sine, off_axis);
-  // A cloud keeps its solid angle; right behind the camera it grows no wider.
-  const VALUE least_sine = choose((VALUE)(0.1f), (VALUE)(0.0f), z > 0.0f);
-  const VALUE widening = angle / max(max(sine_off_axis, least_sine), (VALUE)(FLT_MIN));
-  point.scale *= sqrt(choose((VALUE)(1.0f), widening, sine_off_axis > 1e-6f | z <= 0.0f));
-#elif defined(PROJECTION_EQUIRECTANGULAR)
-  point.cos_latitude = sqrt(x * x + z * z);
-  point.x = focal * atan2(x, z);
-  point.y = focal * atan2(y, point.cos_latitude);
-#else
-  // What is nearly beside the camera has no light in the face (src/scene/projection.cpp).
-  point.x = focal * x / z;
-  point.y = focal * y / z;
-  point.scale /= max(z, (VALUE)(SMALLEST_COSINE_OF_FACE));
-  point.magnification = 1.0f / max(z * z, (VALUE)(FLT_MIN));
-  point.seen &= z > SMALLEST_COSINE_OF_FACE;
-#endif
+  if (PROJECTION_FISHEYE) {
+    const VALUE sine_off_axis = sqrt(x * x + y * y);
+    const VALUE angle = atan2(sine_off_axis, z);
+    const INTEGER off_axis = sine_off_axis > 0.0f;
+    const VALUE per_sine = focal * angle / max(sine_off_axis, (VALUE)(FLT_MIN));
+    point.magnification = max(angle / max(sine_off_axis, (VALUE)(FLT_MIN)), (VALUE)(1.0f));
+    point.x = choose(focal * angle, x * per_sine, off_axis);
+    point.y = choose((VALUE)(0.0f), y * per_sine, off_axis);
+    // A cloud keeps its solid angle; right behind the camera it grows no wider.
+    const VALUE least_sine = choose((VALUE)(0.1f), (VALUE)(0.0f), z > 0.0f);
+    const VALUE widening = angle / max(max(sine_off_axis, least_sine), (VALUE)(FLT_MIN));
+    point.scale *= sqrt(choose((VALUE)(1.0f), widening, sine_off_axis > 1e-6f | z <= 0.0f));
+  } else if (PROJECTION_EQUIRECTANGULAR) {
+    point.cos_latitude = sqrt(x * x + z * z);
+    point.x = focal * atan2(x, z);
+    point.y = focal * atan2(y, point.cos_latitude);
+  } else {
+    // What is nearly beside the camera has no light in the face (src/scene/projection.cpp).
+    point.x = focal * x / z;
+    point.y = focal * y / z;
+    point.scale /= max(z, (VALUE)(SMALLEST_COSINE_OF_FACE));
+    point.magnification = 1.0f / max(z * z, (VALUE)(FLT_MIN));
+    point.seen &= z > SMALLEST_COSINE_OF_FACE;
+  }
   return point;
 }
 
-#ifdef COPIES
 // The ellipse as which an equirectangular picture shows a cloud of this height: panorama_ellipse()
 // of src/scene/projection.cpp.
 typedef struct PanoramaEllipse {
@@ -107,6 +104,13 @@ typedef struct Copies {
   int first, last, step;
 } Copies;
 
+INLINED Copies one_copy(void) {
+  Copies copies;
+  copies.first = copies.last = 0;
+  copies.step = 1;
+  return copies;
+}
+
 static inline Copies copies_in_picture(float x, float y, float radius_x, float radius,
                                        const ProjectParameters p) {
   const float half_period = 0.5f * p.period;
@@ -122,5 +126,3 @@ static inline Copies copies_in_picture(float x, float y, float radius_x, float r
   }
   return copies;
 }
-#endif
-#endif

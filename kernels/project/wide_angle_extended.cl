@@ -3,10 +3,8 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.h"
 #include "kernels/extended/extended.cl"
-#include "kernels/project/project.h"
-
-#ifdef WIDE_ANGLE
 #include "kernels/extended/extended_angle.cl"
+#include "kernels/project/project.h"
 
 #pragma OPENCL FP_CONTRACT OFF
 
@@ -58,12 +56,11 @@ TURN void extended_turn(Extended* v, Extended sine, const FloatPair* turn_axis) 
     v[i] = turned[i];
 }
 
-#if defined(PROJECTION_FISHEYE)
 // Less off the axis than this part of the distance, a direction is taken for one to the right
 // (src/scene/projection.cpp).
 #define SINE_ON_AXIS 0x1p-40f
 
-static inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+static inline void place_in_fisheye(const Extended* v, Extended focal, ExtendedWideAngle* place) {
   const Extended across = extended_hypotenuse(v[0], v[1]);
   const Extended angle = extended_atan2(across, v[2]);
   const Extended radius = extended_product(focal, angle);
@@ -79,23 +76,22 @@ static inline void place_extended(const Extended* v, Extended focal, ExtendedWid
     place->scale = extended_product(place->scale, extended_root(extended_quotient(angle, sine)));
   }
 }
-#elif defined(PROJECTION_EQUIRECTANGULAR)
-static inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+
+static inline void place_in_panorama(const Extended* v, Extended focal, ExtendedWideAngle* place) {
   const Extended level = extended_hypotenuse(v[0], v[2]);
   place->cos_latitude = extended_quotient(level, place->distance);
   place->sine_latitude = extended_quotient(v[1], place->distance);
   place->x = extended_product(focal, extended_atan2(v[0], v[2]));
   place->y = extended_product(focal, extended_atan2(v[1], level));
 }
-#else
-static inline void place_extended(const Extended* v, Extended focal, ExtendedWideAngle* place) {
+
+static inline void place_in_face(const Extended* v, Extended focal, ExtendedWideAngle* place) {
   const Extended cosine = extended_quotient(v[2], place->distance);
   place->seen &= high_part(cosine) > SMALLEST_COSINE_OF_FACE;
   place->x = extended_quotient(extended_product(focal, v[0]), v[2]);
   place->y = extended_quotient(extended_product(focal, v[1]), v[2]);
   place->scale = extended_quotient(place->scale, cosine);
 }
-#endif
 
 // The direction v is right, down, forward; `eye_offset` in the same lengths.
 static inline ExtendedWideAngle extended_wide_angle(Extended* v, Extended eye_offset,
@@ -111,11 +107,15 @@ static inline ExtendedWideAngle extended_wide_angle(Extended* v, Extended eye_of
   place.scale = extended_quotient(focal, place.distance);
   place.cos_latitude = extended_of(1.0f);
   place.sine_latitude = extended_of(0.0f);
-  place_extended(v, focal, &place);
+  if (PROJECTION_FISHEYE)
+    place_in_fisheye(v, focal, &place);
+  else if (PROJECTION_EQUIRECTANGULAR)
+    place_in_panorama(v, focal, &place);
+  else
+    place_in_face(v, focal, &place);
   return place;
 }
 
-#ifdef COPIES
 // panorama_ellipse() of wide_angle.cl.
 typedef struct ExtendedEllipse {
   Extended nearer, sigma_x;
@@ -166,5 +166,3 @@ static inline ExtendedEllipse extended_panorama_ellipse(Extended sigma, Extended
                         extended_row_length(sine, extended_quotient(u2, root), sine_m));
   return ellipse;
 }
-#endif
-#endif

@@ -12,9 +12,8 @@
 // Rows that were blurred along x, at their number modulo a power of two that holds all of a
 // pixel's.
 #define RING_ROWS MOST_BLUR_WEIGHTS
-#if (RING_ROWS & (RING_ROWS - 1)) != 0
-#error "the ring's rows are found by their last bits"
-#endif
+// Its rows are found by their last bits.
+REQUIRE(ring_of_a_power_of_two, (RING_ROWS & (RING_ROWS - 1)) == 0);
 
 // VALUEs at any address in one access: of sums of those that vload16 returns compilers make pieces
 // of two floats.

@@ -12,60 +12,73 @@
 
 // The light behind everything: a colour, or a picture with one plane per channel, in rows
 // that are padded to whole eights.
-#ifdef BACKGROUND_IMAGE
-#define BACKGROUND_PARAMETER __global const float *background,
-#define BACKGROUND_ARGUMENT background,
-#define BACKGROUND(c, x, y) \
-  vload8(0, background + ((size_t)(c)*p.height + (y)) * p.background_stride + (x))
-#else
-#define BACKGROUND_PARAMETER
-#define BACKGROUND_ARGUMENT
-#define BACKGROUND(c, x, y) p.background[c]
-#endif
+INLINED float8 light_behind(const ResolveParameters p, __global const float* background, int c,
+                            int x, int y) {
+  if (!BACKGROUND_IMAGE) return p.background[c];
+  return vload8(0, background + ((size_t)c * p.height + y) * p.background_stride + x);
+}
+
+// What a channel shows: its own light, and this part of what is behind.
+typedef struct ChannelLight {
+  float8 own, transmittance;
+} ChannelLight;
+
+// Of sums. Coarse grids ring by a part of the tolerance: a sum may be slightly negative. No
+// particle's weight or color is.
+INLINED ChannelLight light_of_sum(float8 sum, float source) {
+  const float8 summed = max(sum, (float8)(0.0f));
+  ChannelLight light;
+  if (LIGHT_EMISSION) {
+    light.own = summed;
+    light.transmittance = (float8)(1.0f);
+    return light;
+  }
+  const float8 phi = phi_full(summed), opacity = summed * phi;
+  // What is behind may be so bright that it shows through an opacity close to 1.
+  light.transmittance = choose(1.0f - opacity, passed_in_full(summed, phi), summed > 0.5f);
+  light.own = source * opacity;
+  return light;
+}
+
+// The two parts of a sum (extended_pixels.cl); in the ordered plan three more of depths.
+INLINED ChannelLight light_of_extended(__global const float* parts, size_t plane, float source) {
+  const float8 sum = vload8(0, parts), low = vload8(0, parts + plane);
+  ChannelLight light;
+  if (LIGHT_ORDERED) {
+    light.own = sum;
+    light.transmittance =
+        precise_exp_negative(vload8(0, parts + 6 * plane), vload8(0, parts + 7 * plane));
+    return light;
+  }
+  if (LIGHT_EMISSION) return light_of_sum(sum, source);
+  light.own = source * (sum * precise_phi(sum));
+  light.transmittance = precise_exp_negative(sum, low);
+  return light;
+}
+
+INLINED ChannelLight light_of_channel(__global const float* pixels, size_t plane, size_t c,
+                                      float source) {
+  if (EXTENDED_NUMBERS) return light_of_extended(pixels + 2 * c * plane, plane, source);
+  const float8 sum = vload8(0, pixels + c * plane);
+  if (!LIGHT_ORDERED) return light_of_sum(sum, source);
+  ChannelLight light;
+  light.own = sum;
+  light.transmittance = transmittance_of(vload8(0, pixels + (c + 3) * plane));
+  return light;
+}
 
 // Eight pixels of a row, from x on.
 INLINED void resolve_eight(const ResolveParameters p, const Grid grid, __global const float* planes,
-                           BACKGROUND_PARAMETER __global float* image, int x, int y) {
+                           __global const float* background, __global float* image, int x, int y) {
   __global const float* pixels = planes + pixel_at(grid, 0, p.crop_x + x, p.crop_y + y);
   float light[4][8];
   float8 transmitted = (float8)(0.0f);
 #pragma unroll
   for (int c = 0; c < 3; ++c) {
-#ifdef EXTENDED_NUMBERS
-    // The two parts of a sum (extended_pixels.cl); in the ordered plan three more of depths.
-    __global const float* parts = pixels + (size_t)(2 * c) * grid.plane_size;
-    const float8 sum = vload8(0, parts), low = vload8(0, parts + grid.plane_size);
-#else
-    const float8 sum = vload8(0, pixels + (size_t)c * grid.plane_size);
-#endif
-#if defined(EXTENDED_NUMBERS) && defined(LIGHT_ORDERED)
-    const float8 depth = vload8(0, parts + (size_t)6 * grid.plane_size);
-    const float8 transmittance =
-        precise_exp_negative(depth, vload8(0, parts + (size_t)7 * grid.plane_size));
-    const float8 own = sum;
-#elif defined(EXTENDED_NUMBERS) && !defined(LIGHT_EMISSION)
-    const float8 opacity = sum * precise_phi(sum);
-    const float8 transmittance = precise_exp_negative(sum, low);
-    const float8 own = p.source[c] * opacity;
-#elif defined(LIGHT_ORDERED)
-    const float8 transmittance =
-        transmittance_of(vload8(0, pixels + (size_t)(c + 3) * grid.plane_size));
-    const float8 own = sum;
-#elif defined(LIGHT_EMISSION)
-    const float8 transmittance = (float8)(1.0f);
-    // Coarse grids ring by a part of the tolerance: a sum may be slightly negative. No particle's
-    // weight or color is.
-    const float8 own = max(sum, (float8)(0.0f));
-#else
-    // As above.
-    const float8 depth = max(sum, (float8)(0.0f));
-    const float8 phi = phi_full(depth), opacity = depth * phi;
-    // What is behind may be so bright that it shows through an opacity close to 1.
-    const float8 transmittance = choose(1.0f - opacity, passed_in_full(depth, phi), depth > 0.5f);
-    const float8 own = p.source[c] * opacity;
-#endif
-    vstore8(own + transmittance * BACKGROUND(c, x, y), 0, light[c]);
-    transmitted += transmittance;
+    const ChannelLight of =
+        light_of_channel(pixels, (size_t)grid.plane_size, (size_t)c, p.source[c]);
+    vstore8(of.own + of.transmittance * light_behind(p, background, c, x, y), 0, light[c]);
+    transmitted += of.transmittance;
   }
   vstore8(1.0f - transmitted / 3.0f, 0, light[3]);
   const int count = p.width - x;
@@ -86,18 +99,19 @@ INLINED void resolve_eight(const ResolveParameters p, const Grid grid, __global 
 
 // Item `number` of row y.
 KERNEL_BODY void resolve_pixels(const ResolveParameters* of_frame, __global const Grid* grids,
-                                __global const float* planes,
-                                BACKGROUND_PARAMETER __global float* image, int number, int y) {
+                                __global const float* planes, __global const float* background,
+                                __global float* image, int number, int y) {
   const ResolveParameters p = *of_frame;
   const Grid grid = grids[0];
   const int left = number * PIXELS_OF_ITEM, right_end = min(left + PIXELS_OF_ITEM, p.width);
   for (int x = left; x < right_end; x += 8)
-    resolve_eight(p, grid, planes, BACKGROUND_ARGUMENT image, x, y);
+    resolve_eight(p, grid, planes, background, image, x, y);
 }
 
 // Work-item (pixels, y): linear red, green, blue and alpha.
 __kernel void resolve(const ResolveParameters p, __global const Grid* grids,
-                      __global const float* planes, BACKGROUND_PARAMETER __global float* image) {
-  resolve_pixels(&p, grids, planes, BACKGROUND_ARGUMENT image, (int)get_global_id(0),
+                      __global const float* planes, __global const float* background,
+                      __global float* image) {
+  resolve_pixels(&p, grids, planes, background, image, (int)get_global_id(0),
                  (int)get_global_id(1));
 }

@@ -1,7 +1,6 @@
 // What host and kernels share of the way from planes to the picture: 4-byte members only
 // (grid.h).
-#ifndef SPLOTCHCL_RESOLVE_H
-#define SPLOTCHCL_RESOLVE_H
+#pragma once
 
 // Pixels of a grid: those from right_end and bottom on are no part of it.
 struct GridPart {
@@ -47,6 +46,8 @@ struct RefineParameters {
   float weights[REFINEMENT_TAPS];
 };
 
+#define ROWS_OF_BLOCK 16
+
 struct ResolveParameters {
   int width, height;   // pixels
   int crop_x, crop_y;  // in the picture
@@ -58,7 +59,6 @@ struct ResolveParameters {
   int circle_x, circle_y, circle_diameter;
 };
 
-#ifdef __OPENCL_VERSION__
 // Of a row, that a work-item takes.
 #define PIXELS_OF_ITEM (8 * EIGHTS_OF_ITEM)
 
@@ -68,6 +68,3 @@ typedef struct BlurWeights BlurWeights;
 typedef struct BlurStripsParameters BlurStripsParameters;
 typedef struct RefineParameters RefineParameters;
 typedef struct ResolveParameters ResolveParameters;
-#endif
-
-#endif

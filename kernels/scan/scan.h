@@ -1,8 +1,7 @@
 // What host and kernels share of scans over long lists.
 #include "kernels/common/group.h"
 
-#ifndef SPLOTCHCL_SCAN_H
-#define SPLOTCHCL_SCAN_H
+#pragma once
 
 #define SCAN_VALUES_OF_ITEM 8
 #define SCAN_STRETCH (GROUP_ITEMS * SCAN_VALUES_OF_ITEM)
@@ -13,8 +12,4 @@ struct ScanParameters {
   unsigned int adds_up_groups;
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct ScanParameters ScanParameters;
-#endif
-
-#endif

@@ -1,8 +1,7 @@
 // What host and kernels share of the sort.
 #include "kernels/common/group.h"
 
-#ifndef SPLOTCHCL_SORT_H
-#define SPLOTCHCL_SORT_H
+#pragma once
 
 #define SORT_DIGIT_BITS 8
 #define SORT_DIGITS (1 << SORT_DIGIT_BITS)
@@ -41,11 +40,7 @@ struct KeyRange {
   struct KeyBits bits;
 };
 
-#ifdef __OPENCL_VERSION__
 typedef struct GroupSortParameters GroupSortParameters;
 typedef struct KeyRange KeyRange;
 typedef struct SortParameters SortParameters;
 typedef struct KeyBits KeyBits;
-#endif
-
-#endif

@@ -137,12 +137,12 @@ __kernel OF_GROUPS void sort_range(const GroupSortParameters p, __global const u
 }
 
 // Keys of 48 bits, as in sort.cl. Those of the smallest upper bits lose them, and `shift` upper
-// bits that then are 0 make room for as many of the ends'. Values are still in their first order.
+// bits that then are 0 make room for as many of the ends', which lie where the values say.
 __kernel OF_GROUPS void sort_join_ends(const GroupSortParameters p, __global const ushort* ends,
-                                       __global uint* keys) {
+                                       __global const uint* values, __global uint* keys) {
   const uint i = get_global_id(0);
   if (i >= p.count) return;
-  keys[i] = ((keys[i] - p.smallest) << p.shift) | ((uint)ends[i] >> (16u - p.shift));
+  keys[i] = ((keys[i] - p.smallest) << p.shift) | ((uint)ends[values[i]] >> (16u - p.shift));
 }
 
 // Puts each run of equal sorted keys into the order of their ends; those beyond SORT_SHORT_RUN are

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "certificate/color_errors.h"
+#include "certificate/color_light.h"
 #include "certificate/octave_errors.h"
 #include "certificate/picture_light.h"
 #include "parallel/for_blocks.h"
@@ -24,6 +25,10 @@ constexpr double least_of_peaks = 0.3;
 constexpr double least_of_slabs = 0.3, most_times_slabs = 100;
 // and by so much more than what was found to be missing.
 constexpr double margin = 1.5;
+// What is promised of extended precision leaves so much to them.
+constexpr double colors_of_extended = 0.3 * extended_tolerance;
+// What colors may do before all of a picture's numbers get more digits.
+constexpr double most_of_colors = 0.5;
 // What is left for ends, at least, where nothing makes peaks smaller.
 constexpr double least_room = 0.05;
 // Where ends and peaks both break it, peaks are left a part of it.
@@ -69,12 +74,14 @@ class FrameErrors {
  public:
   FrameErrors(const CollectedSplats& splats, const Image& image, const Frame& frame,
               const FramePlan& plan)
-      : picture_(measure_light(image, frame, plan)),
+      : picture_(measure_light(image, splats.depths, frame, plan)),
         is_bound_(plan.certify),
         is_cut_(frame.kernel.cut.has_value()),
         promise_(plan.shares.promise),
         rest_(error_of_all_pixels(splats, plan)),
-        part_of_all_(plan.certify ? part_of_all_splats(splats, plan) + part_of_colors(frame) : 0),
+        part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0),
+        colors_(image, splats.depths, frame, plan),
+        part_of_colors_(part_of_colors(frame, plan)),
         part_of_layers_(plan.needs_sort() ? plan.layers.part : 0),
         slabs_(plan.slabs),
         of_slabs_(splats.of_slabs) {
@@ -102,8 +109,8 @@ class FrameErrors {
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
-    sums.rest = rest_ / promise_ + part_of_all_ * light.even / promise +
-                part_of_layers_ * light.layers / promise_;
+    sums.rest = of_colors(block) +
+                (rest_ + part_of_all_ * light.parts + part_of_layers_ * light.layers) / promise_;
     double light_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
       parts[i].ends = response * octaves_[i].of_ends(pixels, negligible_part / response);
@@ -130,6 +137,13 @@ class FrameErrors {
     }
     sums.peaks += most_of_itself * light.relative / promise_;
     return sums;
+  }
+
+  // What nothing but more digits of colors makes smaller.
+  double of_colors(std::size_t block) const {
+    if (part_of_colors_ == 0) return 0;
+    const double layers = picture_.blocks[block].behind;
+    return part_of_colors_ * colors_.in_block(block, layers) / promise_;
   }
 
   std::vector<Part> parts() const { return std::vector<Part>(octaves_.size()); }
@@ -195,7 +209,9 @@ class FrameErrors {
   PictureLight picture_;
   std::vector<OctaveErrors> octaves_;
   bool is_bound_, is_cut_;
-  double promise_, rest_, part_of_all_, part_of_layers_;
+  double promise_, rest_, part_of_all_;
+  ColorLight colors_;
+  double part_of_colors_, part_of_layers_;
   int slabs_;
   const std::vector<float>& of_slabs_;
   std::array<double, width_octaves> lights_{};  // that splats counted as
@@ -206,7 +222,7 @@ class FrameErrors {
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan) {
   constexpr std::size_t blocks_at_once = 256;
-  if (!plan.has_errors_of_splats && !plan.needs_sort())
+  if (!plan.has_errors_of_splats && !plan.needs_sort() && part_of_colors(frame, plan) == 0)
     return even_certificate(image, error_of_all_pixels(splats, plan), plan.shares.promise);
   const FrameErrors errors(splats, image, frame, plan);
   std::vector<ErrorParts> blocks(errors.block_count());
@@ -232,12 +248,28 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
     }
     const ErrorParts sums = errors.in_block(b, parts);
     errors.add_needs(b, parts, sums, certificate.needs);
+    certificate.needs_extended |= errors.of_colors(b) > most_of_colors;
   }
   return certificate;
 }
 
-Certificate certify_extended(const Image& image, const Frame& frame) {
-  return even_certificate(image, extended_tolerance, std::max(frame.tolerance, extended_tolerance));
+Certificate certify_extended(const CollectedSplats& splats, const Image& image, const Frame& frame,
+                             const FramePlan& plan) {
+  const double promise = std::max(frame.tolerance, extended_tolerance);
+  Certificate certificate = even_certificate(image, extended_tolerance, promise);
+  const double part = part_of_colors(frame, plan);
+  if (part == 0) return certificate;
+  const PictureLight picture = measure_light(image, splats.depths, frame, plan);
+  const ColorLight colors(image, splats.depths, frame, plan);
+  std::vector<float>& errors = certificate.blocks.errors;
+  for (std::size_t b = 0; b < errors.size(); ++b) {
+    const double of_colors = part * colors.in_block(b, picture.blocks[b].behind);
+    errors[b] += static_cast<float>(std::max(0.0, of_colors - colors_of_extended));
+    const double error = static_cast<double>(errors[b]) / promise;
+    if (error > certificate.error_of_promise) certificate.error_of_promise = error;
+  }
+  certificate.worst.rest = certificate.error_of_promise;
+  return certificate;
 }
 
 }  // namespace splotchcl

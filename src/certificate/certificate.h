@@ -18,6 +18,8 @@ struct Certificate {
   BlockErrors blocks;
   // What is to be added to the plan's, where the promise is not kept.
   SplatNeeds needs;
+  // Nothing but extended precision gives what is promised.
+  bool needs_extended = false;
   bool keeps_promise() const { return error_of_promise <= 1; }
 };
 
@@ -29,13 +31,17 @@ struct CollectedSplats {
   // where there are no slabs.
   std::vector<float> of_slabs;
   double around = 0;  // the part of the promise that clouds around the camera spend
+  // Of matter that absorbs: how deep the deepest channel of each block is.
+  std::vector<float> depths = {};
 };
 
 // docs/dev/accuracy.md ("Checked after drawing") derives it and says what is a bound.
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan);
 
-// Of a picture in extended precision, which keeps its promise whatever the splats.
-Certificate certify_extended(const Image& image, const Frame& frame);
+// Of a picture in extended precision, which keeps its promise whatever the splats, but for the
+// colors of light that is far brighter in one channel than in another.
+Certificate certify_extended(const CollectedSplats& splats, const Image& image, const Frame& frame,
+                             const FramePlan& plan);
 
 }  // namespace splotchcl

@@ -1,13 +1,15 @@
 #pragma once
 
 #include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
 
 namespace splotchcl {
 
-// The part of its light by which a splat may err since its place in the palette, and its
-// intensity, are known to single precision: more the narrower a field's range is beside its values.
-// An estimate where a palette, or the intensity, comes close to black (docs/dev/accuracy.md,
-// "Checked after drawing").
-double part_of_colors(const Frame& frame);
+// The part of its brightest channel's light by which a splat may err in any channel since its place
+// in the palette, and its intensity, are rounded (docs/dev/accuracy.md, "Colors and intensities").
+// By roundings of either sign as an estimate, all of one sign where a bound is asked for
+// (FramePlan::certify) and in extended precision. An estimate where a palette, or the intensity,
+// comes close to black.
+double part_of_colors(const Frame& frame, const FramePlan& plan);
 
 }  // namespace splotchcl

@@ -17,14 +17,18 @@ struct Range {
   double least = std::numeric_limits<double>::max(), most = 0;
 };
 
-// What a block does for an error of 1 in a sum of splats, and of a part of every splat; and the
-// same over max(1, I), pixel by pixel.
+// What a block does for an error of 1 in a sum of splats, and of a part of every splat alike; and
+// over max(1, I), pixel by pixel, of a part of every splat that may differ (BlockLight).
 struct Response {
-  double of_sum = 0, of_parts = 0, relative = 1, layers = 0;
+  double of_sum = 0, of_parts = 0, parts = 0, layers = 0, behind = 0, relative = 1;
 };
 
-// I = q + (background - q) T with T = exp(-x): dI / dx = q - I, and an error of a part of every
-// splat is that times x. `contrast`: the most that q and the background differ.
+Response of_emission(const Range& light) {
+  return {1, light.most, std::min(light.most, 1.0), 0, 0, 1};
+}
+
+// I = q + (background - q) T with T = exp(-x): dI / dx = q - I, and errors of parts of splats are
+// at most that times x. `contrast`: the most that q and the background differ.
 Response of_proportional(const Range& light, double source, double contrast) {
   constexpr double euler = 2.718281828459045;
   const double low = std::abs(source - light.least), high = std::abs(source - light.most);
@@ -33,31 +37,53 @@ Response of_proportional(const Range& light, double source, double contrast) {
   // -T ln T is largest where T = 1 / e.
   const double at = std::clamp(contrast / euler, least, most);
   const double of_parts = at > 0 ? std::max(0.0, -at * std::log(at / contrast)) : 0;
+  const double faintest = std::max(1.0, light.least);
   // What has faded below 1 counts as an error of the sum.
-  return {most, of_parts, std::max({1.0, most, of_parts}) / std::max(1.0, light.least), 0};
+  return {most, of_parts, of_parts / faintest, 0, 0, std::max({1.0, most, of_parts}) / faintest};
 }
 
-// A splat in front takes away from what lies behind, of which no more reaches the eye than the
-// pixel's whole light, and adds its own: an error of a part e of it does e (E T - A I), of which
-// neither is negative. Absorption counts as `expected` of emission (plan.h, light_behind). Errors
-// of a part of every splat do no more than to a single source, and no more than where all light
-// lies as deep as it may, which over the light falls as that grows; of either sign what all take
-// away, and what they add (docs/dev/accuracy.md).
-Response of_ordered(double light, double opacity, double brightest_behind, double expected) {
-  constexpr double euler = 2.718281828459045, deep = 60;
-  const double depth = opacity < 1 ? std::min(-std::log1p(-opacity), deep) : deep;
-  const auto of_parts = [&](double of) {
-    const double deepest = of > 0 ? std::min(depth - 1, std::log(brightest_behind / of)) : 0.0;
-    return std::min(brightest_behind * std::min(opacity, 1 / euler), of * std::max(1.0, deepest));
-  };
-  const double one_by_one = std::min(1 + depth, 2 + std::log(std::max(1.0, brightest_behind)));
-  return {std::max(1.0, light / expected), of_parts(light), std::max(one_by_one, 1 / expected),
-          of_parts(std::min(light, 1.0))};
+// What lies behind layers in an ordered pixel: how deep the deepest channel is, and the brightest
+// source that may be there. Absorption counts as `expected` of emission (plan.h, light_behind).
+struct Behind {
+  double depth, brightest, expected;
+};
+
+// From behind the depth u no more reaches the eye than the pixel's whole light, and no more than
+// b exp(-u): what an error of a part of every layer takes away of it, over that part.
+double taken_away(double light, const Behind& behind) {
+  if (light <= 0) return 0;
+  const double fading = std::max(0.0, std::log(behind.brightest / light));
+  return std::min(light * std::min(behind.depth, 1 + fading),
+                  behind.brightest * -std::expm1(-behind.depth));
+}
+
+// By a part of every layer alike an error is no more than of a single source, and no more than
+// where all light lies as deep as it may.
+double scaled_alike(double light, const Behind& behind) {
+  constexpr double euler = 2.718281828459045;
+  const double opacity = -std::expm1(-behind.depth);
+  const double deepest =
+      light > 0 ? std::min(behind.depth - 1, std::log(behind.brightest / light)) : 0.0;
+  return std::min(behind.brightest * std::min(opacity, 1 / euler), light * std::max(1.0, deepest));
+}
+
+// A splat in front takes away from what lies behind and adds its own: an error of a part e of it
+// does e (E T - A I), of which neither is negative and together neither is more than `taken` or
+// the light. Over max(1, I) both are largest at I = 1 or below (docs/dev/accuracy.md).
+Response of_ordered(double light, const Behind& behind) {
+  const double counted = std::min(light, 1.0), taken = taken_away(counted, behind);
+  const double taken_of_1 = taken_away(1, behind);
+  return {std::max(1.0, light / behind.expected),
+          scaled_alike(light, behind),
+          counted + taken,
+          std::max(counted, taken),
+          taken_of_1,
+          std::max(1 + taken_of_1, 1 / behind.expected)};
 }
 
 struct BlockRanges {
   std::array<Range, 3> channels;
-  double opacity = 0;  // the largest
+  double opacity = 0;  // the largest alpha
 };
 
 BlockRanges ranges_of(const Image& image, int x0, int y0) {
@@ -80,20 +106,11 @@ BlockRanges ranges_of(const Image& image, int x0, int y0) {
   return ranges;
 }
 
-double brightest_channel(const std::vector<BlockRanges>& blocks) {
-  double brightest = 0;
-  for (const BlockRanges& block : blocks) {
-    for (const Range& channel : block.channels)
-      brightest = std::max(brightest, channel.most);
-  }
-  return brightest;
-}
-
-// The brightest that shines through a layer. What emits without absorbing has no brightest
-// source, but nothing that is seen is brighter than it is seen somewhere.
-double brightest_behind(const std::vector<BlockRanges>& blocks, const Frame& frame) {
-  return std::min(std::max(brightest_background(frame), brightest_source(frame)),
-                  std::max(1.0, brightest_channel(blocks)));
+// The deepest channel of a block of which only alpha is known, the mean of three.
+double deepest_by_alpha(double opacity) {
+  constexpr double deepest_of_floats = 88;
+  const double passed = 1 - 3 * opacity;
+  return passed > 0 ? -std::log(passed) : deepest_of_floats;
 }
 
 // What all blocks of a picture share.
@@ -101,28 +118,28 @@ struct Surroundings {
   LightPlan light;
   std::array<double, 3> source;
   double background;
-  double behind, expected;  // ordered
 };
 
-Response response_of(const BlockRanges& ranges, std::size_t channel, const Surroundings& around) {
+Response response_of(const BlockRanges& ranges, std::size_t channel, const Surroundings& around,
+                     const Behind& behind) {
   const Range& light = ranges.channels[channel];
-  if (around.light == LightPlan::emission) return {1, light.most, 1, 0};
-  if (around.light == LightPlan::ordered) {
-    return of_ordered(light.most, ranges.opacity, around.behind, around.expected);
-  }
+  if (around.light == LightPlan::emission) return of_emission(light);
+  if (around.light == LightPlan::ordered) return of_ordered(light.most, behind);
   const double source = around.source[channel];
   return of_proportional(light, source, source + around.background);
 }
 
-BlockLight light_of(const BlockRanges& ranges, const Surroundings& around) {
+BlockLight light_of(const BlockRanges& ranges, const Surroundings& around, const Behind& behind) {
   BlockLight block;
   double least = std::numeric_limits<double>::max();
   for (std::size_t c = 0; c < 3; ++c) {
-    const Response response = response_of(ranges, c, around);
+    const Response response = response_of(ranges, c, around, behind);
     block.response = std::max(block.response, response.of_sum);
     block.even = std::max(block.even, response.of_parts);
-    block.relative = std::max(block.relative, response.relative);
+    block.parts = std::max(block.parts, response.parts);
     block.layers = std::max(block.layers, response.layers);
+    block.behind = std::max(block.behind, response.behind);
+    block.relative = std::max(block.relative, response.relative);
     least = std::min(least, ranges.channels[c].least);
   }
   block.allowed = std::max(1.0, least);
@@ -131,25 +148,24 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around) {
 
 }  // namespace
 
-PictureLight measure_light(const Image& image, const Frame& frame, const FramePlan& plan) {
+PictureLight measure_light(const Image& image, const std::vector<float>& depths, const Frame& frame,
+                           const FramePlan& plan) {
   constexpr int side = BlockErrors::block_pixels;
   PictureLight picture;
   picture.columns = BlockErrors::blocks_along(image.width);
   picture.rows = BlockErrors::blocks_along(image.height);
   const auto columns = static_cast<std::size_t>(picture.columns);
-  std::vector<BlockRanges> ranges(columns * static_cast<std::size_t>(picture.rows));
-  for_blocks(ranges.size(), columns, [&](std::size_t first, std::size_t last) {
-    for (std::size_t b = first; b < last; ++b)
-      ranges[b] = ranges_of(image, static_cast<int>(b % columns) * side,
-                            static_cast<int>(b / columns) * side);
-  });
-  const bool is_ordered = plan.light == LightPlan::ordered;
-  const Surroundings around = {plan.light, plan.source, brightest_background(frame),
-                               is_ordered ? brightest_behind(ranges, frame) : 0, plan.light_behind};
-  picture.blocks.resize(ranges.size());
-  for_blocks(ranges.size(), columns, [&](std::size_t first, std::size_t last) {
-    for (std::size_t b = first; b < last; ++b)
-      picture.blocks[b] = light_of(ranges[b], around);
+  const Surroundings around = {plan.light, plan.source, brightest_background(frame)};
+  const double brightest = std::max({1.0, around.background, brightest_source(frame)});
+  picture.blocks.resize(columns * static_cast<std::size_t>(picture.rows));
+  for_blocks(picture.blocks.size(), columns, [&](std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      const BlockRanges ranges = ranges_of(image, static_cast<int>(b % columns) * side,
+                                           static_cast<int>(b / columns) * side);
+      const double depth =
+          depths.empty() ? deepest_by_alpha(ranges.opacity) : static_cast<double>(depths[b]);
+      picture.blocks[b] = light_of(ranges, around, {depth, brightest, plan.light_behind});
+    }
   });
   return picture;
 }

@@ -12,9 +12,12 @@ namespace splotchcl {
 struct BlockLight {
   double response = 0;  // the most by which a pixel errs for an error of 1 in a sum of splats
   double allowed = 1;   // the least of max(1, I) in any pixel and channel
-  double even = 0;      // by how much a pixel errs where every splat errs by the whole of itself
-  double relative = 1;  // and over max(1, I) of that pixel, where they err by either sign;
-  double layers = 0;    // or, ordered, all by one
+  double even = 0;      // by how much a pixel errs where every splat errs by the whole of itself;
+  // and over max(1, I) of that pixel, where each errs by up to the whole of itself: of either sign,
+  double parts = 0;
+  double layers = 0;    // ordered, of one sign,
+  double behind = 0;    // of what lies behind, where that is 1 together with them,
+  double relative = 1;  // or, of either sign, by itself where it has not faded below 1.
 };
 
 // A picture in square blocks of pixels, row by row.
@@ -23,6 +26,8 @@ struct PictureLight {
   std::vector<BlockLight> blocks;
 };
 
-PictureLight measure_light(const Image& image, const Frame& frame, const FramePlan& plan);
+// `depths`: of the deepest channel of each block; where there are none, what alpha says of it.
+PictureLight measure_light(const Image& image, const std::vector<float>& depths, const Frame& frame,
+                           const FramePlan& plan);
 
 }  // namespace splotchcl

@@ -4,17 +4,15 @@
 
 #include <cmath>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/json_answer.h"
 #include "common/output_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 
 namespace splotchcl::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 4> channel_names = {"red", "green", "blue", "alpha"};
 
@@ -143,7 +141,7 @@ int run_compare(const CompareOptions& options, Console& console) {
     console.note(fmt::format("in {} grey is no difference, white {:.6g} more and black {:.6g} less",
                              options.difference->string(), white, white));
   }
-  std::cout << (options.json ? to_json(difference, options).dump(2) + "\n"
+  std::cout << (options.json ? json_text(to_json(difference, options))
                              : to_text(difference, options));
   return options.limit && difference.pixels_beyond > 0 ? 1 : 0;
 }

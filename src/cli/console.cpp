@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "common/quiet_errors.h"
+#include "common/utf8.h"
 
 namespace splotchcl::cli {
 namespace {
@@ -30,7 +31,7 @@ std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n')
     text.pop_back();
   std::replace(text.begin(), text.end(), '\n', ' ');
-  return printable(std::move(text));
+  return printable(text);
 }
 
 double seconds_since(Clock::time_point start) {
@@ -46,13 +47,6 @@ std::chrono::duration<double> reporting_interval() {
 }
 
 }  // namespace
-
-std::string printable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(),
-      [](char c) { return static_cast<unsigned char>(c) < 32 || c == '\x7f'; }, '?');
-  return text;
-}
 
 // Where libraries cannot be heard while they work, the program can.
 using ErrorSink = spdlog::sinks::stdout_sink_base<spdlog::details::console_mutex>;
@@ -154,7 +148,7 @@ void Console::show_status(const std::string& text) {
     return;
   }
   // Back to the start of the line, and erase it.
-  std::fprintf(error_stream(), "\r\033[K%s", text.c_str());
+  std::fprintf(error_stream(), "\r\033[K%s", one_line(text).c_str());
   std::fflush(error_stream());
   has_status_ = true;
 }
@@ -175,7 +169,7 @@ void Console::done(const std::string& text) {
   reporter_.reset();
   clear_status();
   if (is_terminal_) {
-    std::fprintf(error_stream(), "%s\n", text.c_str());
+    std::fprintf(error_stream(), "%s\n", one_line(text).c_str());
   } else if (verbosity_ == Verbosity::verbose) {
     log_->logger.info("{:.2f} s: {}", seconds_since(start_), one_line(text));
   }

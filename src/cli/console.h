@@ -7,10 +7,6 @@
 
 namespace splotchcl::cli {
 
-// The text with a question mark for each control character: names in a file may hold any, and
-// a terminal obeys them.
-std::string printable(std::string text);
-
 enum class Verbosity {
   quiet,    // errors only
   normal,   // and notes

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "common/utf8.h"
 #include "estimate/frame_estimate.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"

@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_answer.h"
+#include "common/utf8.h"
 #include "load/derived_fields.h"
 #include "load/type_fields.h"
 #include "map/map_units.h"

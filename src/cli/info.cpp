@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_answer.h"
+#include "common/utf8.h"
 #include "load/derived_fields.h"
 #include "snapshot/field_statistics.h"
 #include "snapshot/particle_types.h"
@@ -53,9 +54,10 @@ std::string label(const FieldInfo& field) {
 }
 
 std::string header_text(const SnapshotInfo& info) {
-  std::string text = fmt::format("format    {}\n", info.format);
+  std::string text = fmt::format("format    {}\n", printable(info.format));
   for (const auto& file : info.files) {
-    text += fmt::format("{:9} {}\n", &file == &info.files.front() ? "files" : "", file.string());
+    text += fmt::format("{:9} {}\n", &file == &info.files.front() ? "files" : "",
+                        printable(file.string()));
   }
   text += fmt::format("time      {}\n", info.time);
   if (info.redshift) text += fmt::format("redshift  {}\n", *info.redshift);
@@ -83,7 +85,7 @@ std::string row_text(const FieldRow& row, const FieldInfo& field, const Widths& 
   const FieldStatistics& s = row.statistics;
   return fmt::format("  {:{}} {:{}} {:>13.6g} {:>13.6g} {:>13.6g} {:>8} {}\n", printable(row.name),
                      widths.name, label(field), widths.label, s.minimum, s.maximum, s.mean, s.bad,
-                     field.unit);
+                     printable(field.unit));
 }
 
 std::string note_on_infinite(const FieldRow& row) {
@@ -106,8 +108,9 @@ std::string field_list_text(const ParticleTypeInfo& type) {
   std::string text = fmt::format("  {:{}} {:{}} {:>6} {}\n", "field", widths.name, "in the file",
                                  widths.label, "values", "unit");
   for (const FieldInfo& field : type.fields) {
-    text += fmt::format("  {:{}} {:{}} {:>6} {}\n", printable(field.name), widths.name,
-                        label(field), widths.label, field.values_per_particle, field.unit);
+    text +=
+        fmt::format("  {:{}} {:{}} {:>6} {}\n", printable(field.name), widths.name, label(field),
+                    widths.label, field.values_per_particle, printable(field.unit));
   }
   return text;
 }

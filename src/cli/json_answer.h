@@ -1,7 +1,7 @@
 #pragma once
 
-#include <iostream>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 // Answers of commands for programs rather than people (--json).
@@ -9,10 +9,11 @@ namespace splotchcl::cli {
 
 using Json = nlohmann::ordered_json;
 
-// Names in files need not be UTF-8, which JSON is: bytes that are none are replaced.
-inline void print_json(const Json& json) {
-  std::cout << json.dump(2, ' ', false, Json::error_handler_t::replace) << "\n";
-}
+// Names in files need not be UTF-8, which JSON is: bytes that are none are replaced. Characters
+// that a terminal would obey are escaped.
+std::string json_text(const Json& json);
+
+void print_json(const Json& json);
 
 // A list of what `to_json` makes of each item.
 template <typename Item, typename ToJson>

@@ -210,6 +210,7 @@ int run_map(const MapOptions& options, Console& console) {
     outputs.push_back({output, "--output"});
   }
   check_outputs(outputs, [&] { return files_read(options.scene, source.scene, *source.snapshot); });
+  const WatchedFiles inputs = watched_files(source.scene, *source.snapshot);
   for (const std::string& note : source.notes) {
     if (note != not_drawn) console.note(note);
   }
@@ -220,9 +221,12 @@ int run_map(const MapOptions& options, Console& console) {
   const SnapshotInfo& info = source.snapshot->info();
   console.status("mapping " + info.files.front().filename().string());
   std::vector<std::string> notes = info.notes;
-  const Map map = draw_map(
-      source.scene, *source.snapshot, draw, notes,
-      [&console](const std::string& what, double fraction) { console.progress(what, fraction); });
+  const LoadProgress progress = [&console](const std::string& what, double fraction) {
+    console.progress(what, fraction);
+  };
+  const Map map = inputs.unchanged_during(
+      [&] { return draw_map(source.scene, *source.snapshot, draw, notes, progress); });
+  inputs.check_in_place();
   for (const std::string& note : notes)
     console.note(note);
   write_outputs(map, source, options.outputs, console);

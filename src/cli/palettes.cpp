@@ -7,6 +7,7 @@
 #include "cli/json_answer.h"
 #include "cli/palette_preview.h"
 #include "common/output_files.h"
+#include "common/utf8.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/palette_file.h"

@@ -223,6 +223,7 @@ int run_render(const RenderOptions& options, Console& console) {
     opened.emplace(open_checked(options, output, ranks, console));
   });
   const SceneWithSnapshot& source = *opened;
+  const WatchedFiles inputs = watched_files(source.scene, *source.snapshot);
   if (ranks) {
     ContentMarks marks;
     require_same_files(*ranks, files_read(options.scene, source.scene, *source.snapshot), marks);
@@ -244,7 +245,9 @@ int run_render(const RenderOptions& options, Console& console) {
 
   const Stopwatch drawing;
   console.status(fmt::format("drawing {} particles", particle_count(report.frame)));
-  const DrawnFrame drawn = drawer->draw(source.scene, report.frame, source.snapshot->info());
+  const DrawnFrame drawn = inputs.unchanged_during(
+      [&] { return drawer->draw(source.scene, report.frame, source.snapshot->info()); });
+  agree(ranks.get(), [&] { inputs.check_in_place(); });
   report.stats = drawn.stats;
   report.finish = drawn.finish;
   for (const std::string& note : drawn.all_notes())

@@ -1,15 +1,13 @@
 #include "cli/render_stats.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "cli/json_answer.h"
 #include "common/unfinished_file.h"
 
 namespace splotchcl::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json particles_to_json(const RenderStats& stats) {
   return {
@@ -136,7 +134,7 @@ Json to_json(const FilmStats& film) {
 }
 
 void write(const std::filesystem::path& path, const Json& json) {
-  const std::string text = json.dump(2) + "\n";
+  const std::string text = json_text(json);
   UnfinishedFile file(path);
   file.write(text.data(), text.size());
   file.finish();

@@ -54,8 +54,9 @@ void guard_crashes() {
   ::sigemptyset(&action.sa_mask);
   for (const int signal : {SIGABRT, SIGSEGV, SIGFPE, SIGILL})
     ::sigaction(signal, &action, nullptr);
-  // The usual one has lines of its own before it aborts.
-  std::set_terminate([] { std::abort(); });
+  // The usual one has lines of its own before it aborts, and while OpenCL's compiler is loaded in
+  // another thread its handler of that signal is in the place of ours.
+  std::set_terminate([] { handle_crash(SIGABRT); });
   guarded_process = ::getpid();
   std::atexit(handle_exit);
 }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/reason.h"
-#include "common/word_hash.h"
+#include "scene/word_hash.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -96,16 +96,28 @@ void WatchedFiles::add(const std::filesystem::path& file) {
   if (const std::optional<FileIdentity> found = file_identity(file)) files_.emplace(file, *found);
 }
 
+void WatchedFiles::check(const std::filesystem::path& file, const FileIdentity& expected,
+                         const std::optional<FileIdentity>& found) {
+  if (found && *found == expected) return;
+  const bool differs_in_place =
+      found && found->bytes == expected.bytes && found->written_ns == expected.written_ns;
+  throw DataError(fmt::format(
+      "{}: changed while it was used: found {}{}, expected {}; draw again what was drawn of it",
+      file.string(), differs_in_place ? "another file of " : "", describe(found),
+      describe(expected)));
+}
+
 void WatchedFiles::check() const {
+  for (const auto& [file, expected] : files_)
+    check(file, expected, file_identity(file));
+}
+
+void WatchedFiles::check_in_place() const {
   for (const auto& [file, expected] : files_) {
     const std::optional<FileIdentity> found = file_identity(file);
-    if (found && *found == expected) continue;
-    const bool differs_in_place =
-        found && found->bytes == expected.bytes && found->written_ns == expected.written_ns;
-    throw DataError(fmt::format(
-        "{}: changed while it was used: found {}{}, expected {}; draw again what was drawn of it",
-        file.string(), differs_in_place ? "another file of " : "", describe(found),
-        describe(expected)));
+    const bool is_in_place =
+        found && found->device == expected.device && found->node == expected.node;
+    if (is_in_place) check(file, expected, found);
   }
 }
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "splotchcl/error.h"
+
 namespace splotchcl {
 
 // What tells the content of a file from another: where it lies, its length and when it was written,
@@ -45,8 +47,24 @@ class WatchedFiles {
   void add(const std::filesystem::path& file);
   // Throws DataError that says which one is another now.
   void check() const;
+  // The same where one was written to: who has opened a file keeps it when it is removed, or when
+  // another takes its name.
+  void check_in_place() const;
+  // What changes while it is read may fail anywhere: then that is what to tell.
+  template <class Work>
+  auto unchanged_during(const Work& work) const {
+    try {
+      return work();
+    } catch (const Error&) {
+      check_in_place();
+      throw;
+    }
+  }
 
  private:
+  static void check(const std::filesystem::path& file, const FileIdentity& expected,
+                    const std::optional<FileIdentity>& found);
+
   std::map<std::filesystem::path, FileIdentity> files_;
 };
 

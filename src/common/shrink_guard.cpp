@@ -44,12 +44,24 @@ void say(std::uint64_t number) {
   say(first);
 }
 
+// Without the characters that a terminal would obey, some of which have two bytes in UTF-8.
+void say_name(const char* name) {
+  unsigned before = 0;
+  for (; *name != '\0'; ++name) {
+    const auto byte = static_cast<unsigned char>(*name);
+    const bool is_obeyed = byte < 0x20 || byte == 0x7f || (before == 0xc2 && byte < 0xa0);
+    const char shown[] = {is_obeyed ? '?' : *name, '\0'};
+    say(shown);
+    before = byte;
+  }
+}
+
 void end_for_shrunken_file(const Mapping& mapping) {
   const char* const path = mapping.path.load();
   struct stat status = {};
   const bool is_known = ::stat(path, &status) == 0;
   say("splotchcl: ");
-  say(path);
+  say_name(path);
   say(": became shorter while it was read: found ");
   say(is_known ? static_cast<std::uint64_t>(status.st_size) : 0);
   say(" bytes, expected ");

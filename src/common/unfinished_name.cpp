@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "common/folder_of.h"
-#include "common/word_hash.h"
+#include "scene/word_hash.h"
 
 namespace splotchcl {
 namespace {

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "common/word_hash.h"
+#include "scene/word_hash.h"
 
 namespace splotchcl {
 namespace {

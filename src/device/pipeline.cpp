@@ -2,10 +2,11 @@
 
 #include <utility>
 
-#include "device/frame/splat_capacity.h"
-#include "device/ranks/leaf_sums.h"
+#include "device/ranks/cloud_packets.h"
 #include "device/stages/carry_splats.h"
 #include "device/stages/project_parameters.h"
+#include "device/walk/leaf_sums.h"
+#include "ranks/values.h"
 
 namespace splotchcl {
 
@@ -21,8 +22,8 @@ Pipeline::Pipeline(DeviceContext& device, ParticleStore& particles, const Frame&
       certifier_(context_),
       surroundings_(context_),
       progress_(std::move(progress)),
-      ranks_(ranks) {
-  if (ranks_ != nullptr) transfer_.emplace(context_, compositor_, *ranks_);
+      ranks_(ranks != nullptr ? *ranks : one_process_),
+      transfer_(context_, compositor_, ranks_) {
   // What all stages have asked for, before the device has work to do.
   device.programs.compile_all();
 }
@@ -35,12 +36,18 @@ Image Pipeline::draw() {
   counts_.particles = particle_count(context_.frame);
   Planes planes = context_.plan.needs_sort() ? draw_ordered(compositor_.start()) : draw_sums();
   if (!is_first()) return Image(context_.frame.crop.width, context_.frame.crop.height);
+  if (context_.plan.light != LightPlan::emission) {
+    planes = resolver_.to_picture(std::move(planes));
+    deepest_ = resolver_.find_deepest(planes);
+  }
   return resolver_.resolve(std::move(planes));
 }
 
 CollectedSplats Pipeline::collected() const {
   CollectedSplats collected = certifier_.collected();
   if (context_.plan.slabs > 0) collected.of_slabs = resolver_.errors_of_slabs(slab_light_);
+  if (context_.plan.light != LightPlan::emission)
+    collected.depths = resolver_.depths_of_blocks(deepest_);
   if (counts_.around > 0) collected.around = Surroundings::share_of_promise;
   return collected;
 }
@@ -54,12 +61,7 @@ SplatBlocks Pipeline::project(const ParticleChunk& chunk) {
 }
 
 KeyedSplats Pipeline::project_all() {
-  std::vector<ParticleBuffers> buffers;
-  for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
-    const ParticleChunk all = {c, 0, context_.frame.components[c].particles.count};
-    buffers.push_back(particles_in_view(context_, particles_, all));
-  }
-  return projector_.project_all(buffers);
+  return project_whole(context_, projector_, particles_);
 }
 
 // Order does not matter: particles pass through in chunks, and the working memory is a chunk's and
@@ -67,7 +69,7 @@ KeyedSplats Pipeline::project_all() {
 Planes Pipeline::draw_sums() {
   const std::vector<ParticleChunk> chunks = particle_chunks();
   const std::vector<ChunkRange> leaves = sum_leaves(chunks.size(), context_.device.traits);
-  LeafSums sums(context_, leaves.size(), ranks_, transfer_ ? &*transfer_ : nullptr);
+  LeafSums sums(context_, leaves.size(), ranks_, transfer_);
   std::vector<SplatLight> room = room_beside(sums.own_leaves());
   std::size_t drawn = 0;
   sums.draw([&](std::size_t leaf) {
@@ -75,12 +77,11 @@ Planes Pipeline::draw_sums() {
     return draw_leaf(chunks, leaves[leaf]);
   });
   const std::uint64_t own_around = counts_.around;
-  add_up_counts();
+  add_up(ranks_.all, {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around,
+                      &counts_.blocks_left_out, &counts_.tile_entries});
   if (leaves.empty() || counts_.too_sharp > 0) return compositor_.start();
   std::vector<CloudAround> around;
-  if (counts_.around > 0)
-    around = ranks_ == nullptr ? find_around(chunks_with_around_)
-                               : gather_around(chunks_with_around_, own_around);
+  if (counts_.around > 0) around = find_around(chunks_with_around_, own_around);
   SplatLight light = sums.join();
   certifier_.put_cells(std::move(light.cells));
   if (is_first()) surroundings_.draw(around, light.planes);
@@ -107,12 +108,173 @@ SplatLight Pipeline::draw_leaf(const std::vector<ParticleChunk>& chunks, const C
   return light;
 }
 
-std::vector<CloudAround> Pipeline::list_around(const std::vector<ChunkBlocks>& chunks,
-                                               std::uint64_t counted) {
+Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
+  ranks_.work.particles += chunk.count();
+  SplatBlocks blocks = project(chunk);
+  counts_.blocks_left_out += blocks.left_out;
+  const CountedSplats counted = binner_.count(blocks);
+  planes = draw_lists(counted, counted.bands, std::move(planes));
+  // Read last: the device has long counted them.
+  const ParticleCounts particles = projector_.count(blocks, chunk);
+  ranks_.work.splats += particles.visible;
+  counts_.visible += particles.visible;
+  counts_.bad += particles.bad;
+  counts_.too_sharp += particles.too_sharp;
+  counts_.around += particles.around;
+  if (particles.around > 0) {
+    // While the device draws the chunk.
+    if (chunks_with_around_.empty()) surroundings_.get_programs();
+    chunks_with_around_.push_back(particles.chunks_around.front());
+  }
+  return planes;
+}
+
+// What the walk along an ordered frame goes by.
+struct Pipeline::Order {
+  SplatSlices slices;
+  Relay relay;
+  std::uint64_t splats = 0;        // with the clouds that lists have
+  std::vector<SplatChunk> chunks;  // of all splats
+  std::vector<CloudRange> clouds;  // around the camera, of each slice
+  bool in_bands = false;           // as ranks pass it on
+};
+
+// Splats are sorted slice by slice, nearest first, and composited chunk by chunk, each slice behind
+// what comes from the one before. One process that has room for all splats has one slice.
+Planes Pipeline::draw_ordered(Planes planes) {
+  Order order = {{context_, projector_, particles_, ranks_},
+                 {context_, projector_, transfer_, ranks_},
+                 0,
+                 {},
+                 {}};
+  SplatSlices& slices = order.slices;
+  slices.find();
+  take_counts(slices);
+  if (counts_.too_sharp > 0) return planes;
+  if (counts_.around > 0) take_around(find_around(slices.blocks_around(), slices.own_around()));
+  order.splats = slices.particles().visible + in_lists_.count();
+  order.clouds = slice_around(slices.slices());
+  order.chunks = splat_chunks(order.splats, context_.plan.slabs, context_.device.traits);
+  if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
+  // Slabs and layers of clouds are laid over the whole picture.
+  order.in_bands = ranks_.size() > 1 && context_.plan.slabs == 0 && around_.clouds().empty() &&
+                   slices.has_room_for_copies();
+  SplatLight light;
+  light.planes = std::move(planes);
+  for (std::size_t round = 0; round < slices.rounds(); ++round)
+    light = draw_slice(round, order, std::move(light));
+  light = order.relay.bring_home(std::move(light), slab_light_);
+  add_up(ranks_.all, {&counts_.tile_entries});
+  certifier_.put_cells(std::move(light.cells));
+  return std::move(light.planes);
+}
+
+SplatLight Pipeline::draw_slice(std::size_t round, Order& order, SplatLight light) {
+  Relay& relay = order.relay;
+  const std::size_t number = order.slices.number_of_slice(round);
+  const CloudRange in_lists = in_lists_.count() > 0 ? order.clouds[number] : CloudRange();
+  const SlicePart part =
+      part_of(with_clouds(order.slices.slices()[number], in_lists), order.chunks);
+  KeyedSplats keyed = order.slices.take(round, part.carried, in_lists.count());
+  place_around(keyed, part.first, order.clouds[number]);
+  if (round > 0) relay.pass_round(light, slab_light_);
+  const SortedSplats sorted = sorter_.sort(std::move(keyed));
+  relay.take_splats(round, sorted.splats, part.carried);
+  // Of a later round the first rank takes all that the last one has before it sends anything.
+  if (relay.is_first_rank() && relay.has_other_before(round))
+    light = relay.receive_light(slab_light_);
+  relay.pass_splats(sorted, part.passed_on);
+  ranks_.work.splats += part.composited();
+  if (order.in_bands) return draw_bands(sorted, part, order, std::move(light));
+  if (!relay.is_first_rank()) light = relay.receive_light(slab_light_);
+  light = draw_chunks(sorted, part, order, std::move(light));
+  if (number + 1 == order.clouds.size()) light.planes = end_order(std::move(light.planes));
+  relay.send_on(light, slab_light_);
+  return light;
+}
+
+// Clouds around the camera lie between splats. Slabs end there.
+SplatLight Pipeline::draw_chunks(const SortedSplats& sorted, const SlicePart& part,
+                                 const Order& order, SplatLight light) {
+  certifier_.put_cells(std::move(light.cells));
+  for (std::size_t c = part.first_chunk; c < part.end_chunk; ++c) {
+    tell(c, order.chunks.size());
+    SplatChunk chunk = order.chunks[c];
+    while (const std::optional<CloudLayer> layer = around_.take_before(chunk.first + chunk.count)) {
+      const auto before = static_cast<std::uint32_t>(layer->splats_before - chunk.first);
+      light.planes =
+          draw_splats(sorted, {chunk.first - part.first, before, true}, std::move(light.planes));
+      draw_around(*layer, light.planes);
+      chunk.first += before;
+      chunk.count -= before;
+    }
+    chunk.first -= part.first;
+    light.planes = draw_splats(sorted, chunk, std::move(light.planes));
+  }
+  light.cells = certifier_.take_cells();
+  return light;
+}
+
+// Band by band of the picture, each as soon as the rank before has passed it on.
+SplatLight Pipeline::draw_bands(const SortedSplats& sorted, const SlicePart& part,
+                                const Order& order, SplatLight light) {
+  std::vector<CountedSplats> counted;
+  for (std::size_t c = part.first_chunk; c < part.end_chunk; ++c) {
+    SplatChunk chunk = order.chunks[c];
+    chunk.first -= part.first;
+    counted.push_back(binner_.count(sorted, chunk));
+  }
+  const Buffer<float>& cells = certifier_.begin_cells();
+  const LightTransfer::Rows rows = {light.planes, cells, certifier_.cells_per_tile()};
+  for (const TileBand& band : relay_bands(context_.layout, ranks_.size())) {
+    if (!order.relay.is_first_rank()) transfer_.receive(rows, band, ranks_.rank() - 1);
+    for (const CountedSplats& chunk : counted)
+      light.planes = draw_lists(chunk, parts_in(band, chunk.bands), std::move(light.planes));
+    if (!order.relay.is_last_rank()) transfer_.send(rows, band, ranks_.rank() + 1);
+  }
+  light.cells = certifier_.take_cells();
+  return light;
+}
+
+Planes Pipeline::draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes) {
+  if (chunk.count > 0) {
+    const CountedSplats counted = binner_.count(sorted, chunk);
+    planes = draw_lists(counted, counted.bands, std::move(planes));
+  }
+  if (context_.plan.slabs > 0 && chunk.ends_slab)
+    planes = resolver_.lay_slab(std::move(planes), slab_light_);
+  return planes;
+}
+
+// Clouds around the camera that lie behind all splats.
+Planes Pipeline::end_order(Planes planes) {
+  while (const std::optional<CloudLayer> layer = around_.take_before(end_of_keys))
+    draw_around(*layer, planes);
+  return planes;
+}
+
+// Tiles do not depend on each other, so lists that do not fit together are made and drawn
+// band by band of the picture, to the same bits.
+Planes Pipeline::draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
+                            Planes planes) {
+  for (const TileBand& band : bands) {
+    const TileLists lists = binner_.make_lists(counted, band);
+    counts_.tile_entries += lists.entry_count;
+    certifier_.collect(lists);
+    planes = compositor_.composite(lists, *counted.splats, std::move(planes));
+  }
+  return planes;
+}
+
+std::vector<CloudAround> Pipeline::find_around(const std::vector<ChunkBlocks>& own_blocks,
+                                               std::uint64_t own) {
   const auto get = [this](const ParticleChunk& chunk) {
     return particles_in_view(context_, particles_, chunk);
   };
-  return surroundings_.list(chunks, get, counted);
+  std::vector<CloudAround> clouds =
+      surroundings_.in_order(gather_clouds(ranks_.all, surroundings_.list(own_blocks, get, own)));
+  counts_.visible += clouds.size();
+  return clouds;
 }
 
 // Of an ordered frame.
@@ -127,139 +289,25 @@ void Pipeline::take_around(std::vector<CloudAround> clouds) {
   }
 }
 
-std::vector<CloudAround> Pipeline::find_around(const std::vector<ChunkBlocks>& chunks) {
-  std::vector<CloudAround> clouds = surroundings_.in_order(list_around(chunks, counts_.around));
-  counts_.visible += clouds.size();
-  return clouds;
+// Which clouds around the camera lie in which slices.
+std::vector<CloudRange> Pipeline::slice_around(const std::vector<KeySlice>& slices) const {
+  std::vector<std::uint64_t> keys = in_lists_.keys();
+  for (const CloudAround& cloud : around_.clouds())
+    keys.push_back(cloud.key);
+  return clouds_of_slices(keys, slices);
 }
 
-Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
-  if (ranks_ != nullptr) ranks_->work.particles += chunk.count();
-  SplatBlocks blocks = project(chunk);
-  counts_.blocks_left_out += blocks.left_out;
-  planes = draw_lists(binner_.count(blocks), std::move(planes));
-  // Read last: the device has long counted them.
-  const ParticleCounts particles = projector_.count(blocks, chunk);
-  if (ranks_ != nullptr) ranks_->work.splats += particles.visible;
-  counts_.visible += particles.visible;
-  counts_.bad += particles.bad;
-  counts_.too_sharp += particles.too_sharp;
-  counts_.around += particles.around;
-  if (particles.around > 0) {
-    // While the device draws the chunk.
-    if (chunks_with_around_.empty()) surroundings_.get_programs();
-    chunks_with_around_.push_back(particles.chunks_around.front());
-  }
-  return planes;
-}
-
-bool Pipeline::has_room_for_all_splats() const {
-  for (const DrawnComponent& component : context_.frame.components) {
-    if (!particles_.are_whole(component.particles)) return false;
-  }
-  return splat_slots(context_.frame, context_.plan, context_.device.traits) <=
-         splat_capacity(context_);
-}
-
-// Splats of the whole frame are sorted, then composited nearest first, chunk by chunk.
-Planes Pipeline::draw_ordered(Planes planes) {
-  return ranks_ != nullptr ? draw_slices(std::move(planes)) : draw_alone(std::move(planes));
-}
-
-void Pipeline::take_counts(const ParticleCounts& found, std::uint64_t left_out) {
-  counts_.blocks_left_out = left_out;
-  counts_.visible = found.visible;
-  counts_.bad = found.bad;
-  counts_.too_sharp = found.too_sharp;
-  counts_.around = found.around;
-}
-
-Planes Pipeline::draw_alone(Planes planes) {
-  if (!has_room_for_all_splats()) return draw_windows(std::move(planes));
-  KeyedSplats keyed = project_all();
-  take_counts(keyed.particles, keyed.left_out);
-  if (counts_.too_sharp > 0) return planes;
-  if (counts_.around > 0) take_around(find_around(keyed.particles.chunks_around));
-  place_around(keyed, 0, end_of_keys);
-  const SortedSplats sorted = sorter_.sort(std::move(keyed));
-  const std::vector<SplatChunk> chunks =
-      splat_chunks(sorted.count, context_.plan.slabs, context_.device.traits);
-  if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
-  std::size_t next = 0;
-  return end_order(sorted.count, draw_chunks(sorted, 0, chunks, next, std::move(planes)));
-}
-
-// The same chunks, of splats that are projected and sorted window by window: what a window has
-// left of a chunk stands before the next one's.
-Planes Pipeline::draw_windows(Planes planes) {
-  WindowProjector windows(context_, projector_, sorter_, particles_);
-  windows.count_keys();
-  take_counts(windows.particles(), windows.left_out());
-  counts_.windows = windows.steps();
-  if (counts_.too_sharp > 0) return planes;
-  const std::uint64_t without_clouds = counts_.visible;
-  if (counts_.around > 0)
-    take_around(find_around(all_blocks(particle_chunks(), context_.device.traits)));
-  const std::uint64_t splats = without_clouds + in_lists_.count();
-  const std::vector<SplatChunk> chunks =
-      splat_chunks(splats, context_.plan.slabs, context_.device.traits);
-  if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
-  SortedSplats sorted;
-  std::uint64_t first = 0, drawn = 0;
-  std::size_t next = 0;
-  for (std::size_t step = 0; step < windows.steps(); ++step) {
-    sorted = windows.next(
-        step, std::move(sorted), static_cast<std::uint32_t>(drawn - first),
-        {[&](std::uint64_t end_key) { return in_lists_.open_before(end_key); },
-         [&](std::uint64_t end_key, KeyedSplats& keyed) { place_around(keyed, drawn, end_key); }});
-    first = drawn;
-    planes = draw_chunks(sorted, first, chunks, next, std::move(planes));
-    drawn = next < chunks.size() ? chunks[next].first : splats;
-  }
-  return end_order(splats, std::move(planes));
-}
-
-Planes Pipeline::draw_chunks(const SortedSplats& sorted, std::uint64_t first,
-                             const std::vector<SplatChunk>& chunks, std::size_t& next,
-                             Planes planes) {
-  for (; next < chunks.size(); ++next) {
-    SplatChunk chunk = chunks[next];
-    const std::uint64_t end = chunk.first + chunk.count;
-    if (end - first > sorted.count) break;
-    tell(next, chunks.size());
-    // Clouds around the camera lie between splats. Slabs end there.
-    while (const std::optional<CloudLayer> layer = around_.take_before(end)) {
-      const auto before = static_cast<std::uint32_t>(layer->splats_before - chunk.first);
-      planes = draw_splats(sorted, {chunk.first - first, before, true}, std::move(planes));
-      draw_around(*layer, planes);
-      chunk.first += before;
-      chunk.count -= before;
-    }
-    chunk.first -= first;
-    planes = draw_splats(sorted, chunk, std::move(planes));
-  }
-  return planes;
-}
-
-Planes Pipeline::draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes) {
-  if (chunk.count > 0) planes = draw_lists(binner_.count(sorted, chunk), std::move(planes));
-  if (context_.plan.slabs > 0 && chunk.ends_slab)
-    planes = resolver_.lay_slab(std::move(planes), slab_light_);
-  return planes;
-}
-
-// Clouds around the camera that lie behind all splats.
-Planes Pipeline::end_order(std::uint64_t splats, Planes planes) {
-  around_.place_among({}, splats, end_of_keys);
-  while (const std::optional<CloudLayer> layer = around_.take_before(end_of_keys))
-    draw_around(*layer, planes);
-  return planes;
-}
-
-void Pipeline::place_around(KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key) {
-  in_lists_.append_before(end_key, keyed);
-  if (const std::optional<std::uint64_t> last = around_.last_open_before(end_key))
-    around_.place_among(sort_keys_up_to(context_, keyed, *last), first, end_key);
+// Of layers all ranks have to know all places of the round: clouds at the end of one slice may be
+// of one layer with those that begin the next.
+void Pipeline::place_around(KeyedSplats& keyed, std::uint64_t first, const CloudRange& clouds) {
+  if (in_lists_.count() > 0) in_lists_.append(clouds.first, clouds.end, keyed);
+  if (around_.clouds().empty()) return;
+  std::vector<std::uint64_t> keys;
+  if (clouds.first < clouds.end)
+    keys = sort_keys_up_to(context_, keyed, around_.clouds()[clouds.end - 1].key);
+  around_.append_places(
+      gather_lists(ranks_.all, around_.places_among(keys, first, clouds.first, clouds.end)));
+  around_.skip_before(first);
 }
 
 void Pipeline::draw_around(const CloudLayer& layer, const Planes& planes) {
@@ -267,21 +315,15 @@ void Pipeline::draw_around(const CloudLayer& layer, const Planes& planes) {
   if (context_.plan.slabs > 0) resolver_.begin_slab(planes, slab_light_);
 }
 
-// Tiles do not depend on each other, so lists that do not fit together are made and drawn
-// band by band of the picture, to the same bits.
-Planes Pipeline::draw_lists(const CountedSplats& counted, Planes planes) {
-  return draw_lists(counted, counted.bands, std::move(planes));
-}
-
-Planes Pipeline::draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
-                            Planes planes) {
-  for (const TileBand& band : bands) {
-    const TileLists lists = binner_.make_lists(counted, band);
-    counts_.tile_entries += lists.entry_count;
-    certifier_.collect(lists);
-    planes = compositor_.composite(lists, *counted.splats, std::move(planes));
-  }
-  return planes;
+void Pipeline::take_counts(const SplatSlices& slices) {
+  const ParticleCounts& found = slices.particles();
+  counts_.blocks_left_out = slices.left_out();
+  counts_.visible = found.visible;
+  counts_.bad = found.bad;
+  counts_.too_sharp = found.too_sharp;
+  counts_.around = found.around;
+  const bool alone_in_windows = ranks_.size() == 1 && !slices.is_whole();
+  if (slices.rounds() > 1 || alone_in_windows) counts_.windows = slices.slices().size();
 }
 
 // The device has drawn all parts but the last: counting the splats of a part waits for those

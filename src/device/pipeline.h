@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "device/frame/chunks.h"
@@ -11,8 +10,8 @@
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
 #include "device/ranks/light_transfer.h"
+#include "device/ranks/lone_rank.h"
 #include "device/ranks/rank_work.h"
-#include "device/ranks/slice_clouds.h"
 #include "device/stages/binner.h"
 #include "device/stages/certifier.h"
 #include "device/stages/clouds_in_lists.h"
@@ -21,13 +20,12 @@
 #include "device/stages/resolver.h"
 #include "device/stages/sorter.h"
 #include "device/stages/surroundings.h"
-#include "device/stages/window_projector.h"
+#include "device/walk/key_slices.h"
+#include "device/walk/relay.h"
+#include "device/walk/splat_slices.h"
 #include "splotchcl/image.h"
 
 namespace splotchcl {
-
-class SplatExchange;
-struct SlicePart;
 
 struct DrawCounts {
   std::uint64_t particles = 0;  // in the components
@@ -37,7 +35,7 @@ struct DrawCounts {
   std::uint64_t in_lists = 0;         // of those, entries of lists
   std::uint64_t blocks_left_out = 0;  // of particles, out of view
   std::uint64_t tile_entries = 0;     // splats summed over tiles
-  std::uint64_t windows = 0;          // of an ordered frame that has no room in one piece
+  std::uint64_t windows = 0;          // slices of an ordered frame that has no room in one piece
 };
 
 // The stages of one frame, from particles to the picture. The renderer draws with it; tests
@@ -73,45 +71,39 @@ class Pipeline {
   const Resolver& resolver() const { return resolver_; }
 
  private:
-  bool is_first() const { return ranks_ == nullptr || ranks_->rank() == 0; }
-  Planes add_chunk(const ParticleChunk& chunk, Planes planes);
+  bool is_first() const { return ranks_.rank() == 0; }
+
+  // A sum: leaf by leaf of a tree, chunk by chunk of the particles.
+  Planes draw_sums();
   std::vector<SplatLight> room_beside(std::size_t leaves) const;
   SplatLight draw_leaf(const std::vector<ParticleChunk>& chunks, const ChunkRange& leaf);
-  Planes draw_sums();
-  Planes draw_ordered(Planes planes);
-  Planes draw_alone(Planes planes);  // an ordered frame, by this rank
-  void take_counts(const ParticleCounts& found, std::uint64_t left_out);
-  bool has_room_for_all_splats() const;
-  Planes draw_windows(Planes planes);
-  // Chunks of the order from `next` on that lie in `sorted`, whose first splat is number `first`.
-  Planes draw_chunks(const SortedSplats& sorted, std::uint64_t first,
-                     const std::vector<SplatChunk>& chunks, std::size_t& next, Planes planes);
-  Planes draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes);
-  Planes end_order(std::uint64_t splats, Planes planes);
-  std::vector<CloudAround> find_around(const std::vector<ChunkBlocks>& chunks);
-  std::vector<CloudAround> list_around(const std::vector<ChunkBlocks>& chunks,
-                                       std::uint64_t counted);
+  Planes add_chunk(const ParticleChunk& chunk, Planes planes);
 
-  // Several ranks (pipeline_ranks.cpp).
-  std::vector<CloudAround> gather_around(const std::vector<ChunkBlocks>& chunks, std::uint64_t own);
-  void place_around(KeyedSplats& keyed, std::uint64_t first, const CloudRange& clouds);
-  std::vector<CloudRange> slice_around(const std::vector<KeySlice>& slices) const;
-  void add_up_counts();
-  Planes draw_slices(Planes planes);
-  SplatLight draw_slice(const SortedSplats& sorted, const SlicePart& part,
-                        const std::vector<SplatChunk>& chunks, SplatLight light);
-  SplatLight draw_slice_in_bands(const SortedSplats& sorted, const SlicePart& part,
-                                 const std::vector<SplatChunk>& chunks, SplatLight light);
+  // An ordered frame: slice by slice of the order, chunk by chunk of the splats.
+  struct Order;
+  Planes draw_ordered(Planes planes);
+  SplatLight draw_slice(std::size_t round, Order& order, SplatLight light);
+  SplatLight draw_chunks(const SortedSplats& sorted, const SlicePart& part, const Order& order,
+                         SplatLight light);
+  SplatLight draw_bands(const SortedSplats& sorted, const SlicePart& part, const Order& order,
+                        SplatLight light);
+  Planes draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes);
+  Planes end_order(Planes planes);
+
   Planes draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
                     Planes planes);
-  void send_state(const SplatLight& light, int to);
-  SplatLight receive_state(int from);
+
+  // Clouds around the camera.
+  std::vector<CloudAround> find_around(const std::vector<ChunkBlocks>& own_blocks,
+                                       std::uint64_t own);
   void take_around(std::vector<CloudAround> clouds);
-  // Puts clouds around the camera with keys below `end_key` among splats, the nearest of which is
-  // number `first`, or finds their places between them.
-  void place_around(KeyedSplats& keyed, std::uint64_t first, std::uint64_t end_key);
+  std::vector<CloudRange> slice_around(const std::vector<KeySlice>& slices) const;
+  // Puts these clouds among the splats of a slice, the nearest of which is number `first`, or finds
+  // their places between them.
+  void place_around(KeyedSplats& keyed, std::uint64_t first, const CloudRange& clouds);
   void draw_around(const CloudLayer& layer, const Planes& planes);
-  Planes draw_lists(const CountedSplats& counted, Planes planes);
+
+  void take_counts(const SplatSlices& slices);
   void tell(std::size_t done, std::size_t total) const;
 
   ParticleStore& particles_;
@@ -123,14 +115,17 @@ class Pipeline {
   const Resolver resolver_;
   Certifier certifier_;
   SlabLight slab_light_;
+  Buffer<float> deepest_;  // layers of the picture
   const Surroundings surroundings_;
   CloudsInLists in_lists_;  // clouds around the camera that are entries like splats ...
   CloudLayers around_;      // ... or layers between them
   std::vector<ChunkBlocks> chunks_with_around_;  // of sums
   DrawCounts counts_;
   std::function<void(double)> progress_;
-  FrameRanks* ranks_;                      // null: one process
-  std::optional<LightTransfer> transfer_;  // between ranks
+  LoneRank alone_;
+  FrameRanks one_process_{alone_, {}};
+  FrameRanks& ranks_;
+  const LightTransfer transfer_;  // between ranks
 };
 
 }  // namespace splotchcl

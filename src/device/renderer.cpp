@@ -108,7 +108,7 @@ FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate
                     std::size_t drawings) {
   // What converges does so in a step or two.
   constexpr std::size_t most_drawings = 4;
-  if (drawings >= most_drawings) return extend_plan(frame, plan);
+  if (drawings >= most_drawings || certificate.needs_extended) return extend_plan(frame, plan);
   if (!plan.certify) return refine_plan(frame, plan, certificate.needs);
   // Bounds fall more slowly than what is shared out: by no less than 4 at a time.
   return tighten_plan(frame, plan, std::clamp(2 * certificate.error_of_promise, 4.0, 1000.0));
@@ -267,7 +267,7 @@ DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePla
     const double before = thread_seconds();
     if (is_first()) {
       picture.certificate = drawn.is_extended()
-                                ? certify_extended(picture.image, frame)
+                                ? certify_extended(splats.collected, picture.image, frame, drawn)
                                 : certify(splats.collected, picture.image, frame, drawn);
     }
     share(picture.certificate);
@@ -367,6 +367,7 @@ void Renderer::State::share(Certificate& certificate) const {
   broadcast_value(*ranks, certificate.worst);
   broadcast_value(*ranks, certificate.worst_kept);
   broadcast_value(*ranks, certificate.needs);
+  broadcast_value(*ranks, certificate.needs_extended);
   broadcast_value(*ranks, certificate.blocks.columns);
   broadcast_value(*ranks, certificate.blocks.rows);
   broadcast_values(*ranks, certificate.blocks.errors);

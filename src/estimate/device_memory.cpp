@@ -52,15 +52,8 @@ class FrameBuffers {
     return blocks * block * splats_per_particle();
   }
 
-  // Where the splats of an ordered frame lie: on a processor each particle has room for its own,
-  // block by block; groups count theirs first.
-  std::uint64_t slots(std::uint64_t splats) const {
-    return traits_.rows ? splat_slots(frame_, plan_, traits_) : splats;
-  }
-
-  // The splats of a chunk of particles before they are put together (Projector::project_window);
-  // only by the shape for processors.
-  std::uint64_t splats_apart() const { return traits_.rows ? chunk_splats() : 0; }
+  // Where the splats of an ordered frame lie: each particle has room for its own, block by block.
+  std::uint64_t slots() const { return splat_slots(frame_, plan_, traits_); }
 
   std::uint64_t splats(std::uint64_t count) const {
     return count * (variant_.splat_bytes() + variant_.extended_splat_bytes());
@@ -72,9 +65,10 @@ class FrameBuffers {
                                   : sizeof(shared::SplatTiles) + sizeof(std::uint32_t));
   }
 
-  // The same of a chunk's, where they are not with the splats.
+  // The same of a chunk's, where they are not with the splats. Of a GPU where these lie as well.
   std::uint64_t tiles_of_chunk() const {
-    return variant_.has_own_tiles() ? 0 : tiles(chunk_splats());
+    const std::uint64_t order = traits_.rows ? 0 : chunk_splats() * sizeof(std::uint32_t);
+    return order + (variant_.has_own_tiles() ? 0 : tiles(chunk_splats()));
   }
 
   // Splats that were put in order for their lists; only by the shape for processors.
@@ -170,12 +164,12 @@ std::uint64_t bytes_of_drawing(const FrameBuffers& buffers, const DeviceTraits& 
          buffers.slabs();
 }
 
-// Keys and order have a second place each, where they are sorted to: of keys on a processor the one
-// that they were projected to.
+// Keys and order have a second place each, where they are sorted to: of keys the one that they were
+// projected to.
 std::uint64_t bytes_in_order(const FrameBuffers& buffers, const Frame& frame,
                              const DeviceTraits& traits, double splats) {
   const auto count = static_cast<std::uint64_t>(std::llround(splats));
-  const std::uint64_t slots = buffers.slots(count);
+  const std::uint64_t slots = buffers.slots();
   const std::uint64_t sorting = slots * (key_end_of(frame) + key) + count * (key + 2 * order);
   return buffers.light() + buffers.splats(slots) +
          std::max(sorting, bytes_of_drawing(buffers, traits, count));
@@ -186,7 +180,7 @@ std::uint64_t bytes_in_windows(const FrameBuffers& buffers, const Frame& frame,
                                const DeviceTraits& traits, double splats) {
   const auto own = static_cast<std::uint64_t>(std::llround(splats));
   const std::uint64_t count = own + std::min<std::uint64_t>(own, traits.sorted_chunk);
-  const std::uint64_t keyed = key + key_end_of(frame) + order, apart = buffers.splats_apart();
+  const std::uint64_t keyed = key + key_end_of(frame) + order, apart = buffers.chunk_splats();
   const std::uint64_t projecting = count * keyed + buffers.splats(apart) + apart * keyed;
   const std::uint64_t sorting = count * (keyed + key + order);
   return buffers.light() + buffers.splats(count) +

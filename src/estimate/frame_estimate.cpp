@@ -21,7 +21,7 @@ bool has_streamed_columns(const Frame& frame) {
       [](const DrawnComponent& component) { return has_streamed_column(component.particles); });
 }
 
-// As Pipeline::draw_ordered decides, of which particles are drawn being an estimate.
+// As SplatSlices::find decides, of which particles are drawn being an estimate.
 void choose_windows(const Frame& frame, const FramePlan& plan, const Variant& variant,
                     const DeviceTraits& traits, FrameEstimate& estimate) {
   const std::uint64_t capacity = splat_capacity(

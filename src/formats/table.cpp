@@ -10,6 +10,7 @@
 #include "formats/position_origin.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 #include "snapshot/unit_ratio.h"
 #include "splotchcl/error.h"
 
@@ -241,6 +242,7 @@ class TableSnapshot : public Snapshot {
 };
 
 TableSnapshot::TableSnapshot(TablesByType tables, SnapshotInfo info) : info_(std::move(info)) {
+  info_.files_mark = hash_of_files(info_).value();
   UnitsOfFields units;
   for (auto& [type, table] : tables) {
     FieldTable& added = tables_.emplace(type, FieldTable(std::move(table), info_)).first->second;

@@ -2,6 +2,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -11,6 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <new>
+#include <stdexcept>
 #include <thread>
 
 #include "image/picture_encoders.h"
@@ -41,6 +44,34 @@ class MemoryStream : public Imf::OStream {
   std::vector<unsigned char> bytes_;
   std::size_t place_ = 0;
 };
+
+class MemorySource : public Imf::IStream {
+ public:
+  MemorySource(const std::string& name, const std::vector<unsigned char>& bytes)
+      : Imf::IStream(name.c_str()), bytes_(bytes) {}
+
+  bool read(char to[], int count) override {
+    if (static_cast<std::size_t>(count) > bytes_.size() - place_)
+      throw std::out_of_range("it ends too early");
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(place_), count, to);
+    place_ += static_cast<std::size_t>(count);
+    return place_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return place_; }
+  void seekg(std::uint64_t place) override {
+    place_ = std::min(static_cast<std::size_t>(place), bytes_.size());
+  }
+
+ private:
+  const std::vector<unsigned char>& bytes_;
+  std::size_t place_ = 0;
+};
+
+// Where memory runs out while lines are packed, OpenEXR leaves them out and tells nobody.
+void require_all_lines(const std::string& name, const std::vector<unsigned char>& bytes) {
+  MemorySource source(name, bytes);
+  if (!Imf::InputFile(source).isComplete()) throw std::bad_alloc();
+}
 
 Imf::Header make_header(const Image& image, const std::map<std::string, std::string>& metadata) {
   Imf::Header header(image.width, image.height);
@@ -83,7 +114,9 @@ std::vector<unsigned char> encode_exr(const std::filesystem::path& path, const I
       file.setFrameBuffer(make_frame_buffer(image));
       file.writePixels(image.height);
     }  // which completes the file
-    return stream.take();
+    std::vector<unsigned char> bytes = stream.take();
+    require_all_lines(path.string(), bytes);
+    return bytes;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -107,6 +107,10 @@ std::vector<unsigned char> encode(const std::filesystem::path& path, const Image
 
 void check_readable(const std::filesystem::path& path) {
   require_regular_file(path);
+  std::error_code ignored;
+  // Some of the system's own files claim it, and keep their reader waiting.
+  if (std::filesystem::file_size(path, ignored) == 0)
+    throw DataError(path.string() + ": is empty, expected a picture: copy or write it again");
   check_exr_header(path);
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,12 +13,13 @@
 #include "common/mapped_file.h"
 #include "common/marked_file.h"
 #include "common/unfinished_file.h"
-#include "common/word_hash.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/particle_rules.h"
 #include "scene/streamed_column.h"
+#include "scene/word_hash.h"
 #include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -47,17 +47,7 @@ std::uint64_t blocks_of(std::uint64_t count) {
 
 // Of all that the boxes follow from: the files, and what of them positions and lengths are.
 std::uint64_t key_of(const SnapshotInfo& info) {
-  WordHash hash;
-  std::vector<std::filesystem::path> files = info.files;
-  files.insert(files.end(), info.files_beside.begin(), info.files_beside.end());
-  for (const std::filesystem::path& file : files) {
-    std::error_code missing;
-    hash.add(file.filename().string());
-    hash.add(std::uint64_t{std::filesystem::file_size(file, missing)});
-    const auto time = std::filesystem::last_write_time(file, missing).time_since_epoch();
-    hash.add(static_cast<std::uint64_t>(
-        std::chrono::duration_cast<std::chrono::nanoseconds>(time).count()));
-  }
+  WordHash hash = hash_of_files(info);
   for (const ParticleTypeInfo& type : info.types) {
     hash.add(static_cast<std::uint64_t>(type.type));
     hash.add(type.count);
@@ -67,6 +57,11 @@ std::uint64_t key_of(const SnapshotInfo& info) {
     }
   }
   return hash.value();
+}
+
+// One that is still open may be of files that others have replaced since.
+bool has_files_as_opened(const SnapshotInfo& info) {
+  return hash_of_files(info).value() == info.files_mark;
 }
 
 // Tables of text are read as a whole, and which column is which a scene may say anew.
@@ -189,7 +184,6 @@ SnapshotIndex SnapshotIndex::make(const Snapshot& snapshot,
         info.files.empty() ? "the snapshot" : info.files.front().string(), info.format));
   }
   SnapshotIndex index;
-  index.key_ = key_of(info);
   for (const ParticleTypeInfo& type : info.types)
     index.types_.push_back(index_type(snapshot, type, progress));
   return index;
@@ -202,7 +196,7 @@ SnapshotIndex SnapshotIndex::of(std::vector<Type> types) {
 }
 
 std::optional<SnapshotIndex> SnapshotIndex::read(const SnapshotInfo& info) {
-  if (!is_there(info)) return std::nullopt;
+  if (!is_there(info) || !has_files_as_opened(info)) return std::nullopt;
   const auto file = MappedFile::open_if_possible(path_for(info));
   if (file == nullptr || file->size() != file_bytes(info) || !ends_with_its_checksum(*file))
     return std::nullopt;
@@ -243,14 +237,13 @@ void SnapshotIndex::write(const SnapshotInfo& info) const {
     throw UsageError(fmt::format(
         "{}: found a file that is no index, expected none or an index; move it", path.string()));
   }
-  const std::uint64_t key = key_of(info);
-  if (key_ && *key_ != key) {
+  if (!has_files_as_opened(info)) {
     throw DataError(info.files.front().string() +
                     ": was written anew while its index was made; make it again when the snapshot "
                     "is complete");
   }
   std::vector<std::byte> bytes;
-  const FileHeader header = {mark, key, types_.size()};
+  const FileHeader header = {mark, key_of(info), types_.size()};
   append(bytes, &header, sizeof header);
   for (const Type& type : types_) {
     const TypeHeader head = {type.type, type.count, type.has_smoothing_lengths ? 1u : 0u};

@@ -34,7 +34,8 @@ class SnapshotIndex {
   static SnapshotIndex make(const Snapshot& snapshot, const std::function<void(double)>& progress);
   // Of boxes that are known otherwise.
   static SnapshotIndex of(std::vector<Type> types);
-  // That beside the snapshot; none where there is no such file, or it is damaged or of other files.
+  // That beside the snapshot; none where there is no such file, it is damaged or of other files, or
+  // the files are others than when the snapshot was opened.
   static std::optional<SnapshotIndex> read(const SnapshotInfo& info);
 
   // Whether a snapshot's files are read in parts, so that an index saves something, and its
@@ -44,7 +45,7 @@ class SnapshotIndex {
   static bool is_there(const SnapshotInfo& info);
 
   // Throws DataError when the file cannot be written, or the snapshot has been written anew since
-  // it was read, UsageError when another one is in its place.
+  // it was opened, UsageError when another one is in its place.
   void write(const SnapshotInfo& info) const;
 
   const std::vector<Type>& types() const { return types_; }
@@ -52,7 +53,6 @@ class SnapshotIndex {
 
  private:
   std::vector<Type> types_;
-  std::optional<std::uint64_t> key_;  // of the files, before they were read
 };
 
 }  // namespace splotchcl

@@ -18,6 +18,7 @@
 #include "scene/reference_column.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
+#include "splotchcl/plan.h"
 
 namespace splotchcl {
 namespace {
@@ -54,6 +55,15 @@ std::shared_ptr<const Image> background_image(const ImageSettings& image,
   });
 }
 
+// Nothing that is drawn errs by less.
+void note_small_tolerance(double tolerance, std::vector<std::string>& notes) {
+  if (tolerance == 0 || tolerance >= extended_tolerance) return;
+  notes.push_back(fmt::format(
+      "tolerance: found {:g}, which is drawn as 0: as exact as possible, to {:g}; expected 0 or "
+      "at least that",
+      tolerance, extended_tolerance));
+}
+
 }  // namespace
 
 FrameLoader::FrameLoader(const Scene& scene, const Snapshot& snapshot,
@@ -63,6 +73,7 @@ FrameLoader::FrameLoader(const Scene& scene, const Snapshot& snapshot,
     throw UsageError("the scene has no component, expected at least one; add a [[component]]");
   }
   check_finish(scene, snapshot.info());
+  note_small_tolerance(scene.tolerance, notes);
   if (scene.periodic.wrap) periodic_box_ = periodic_box(scene.periodic, snapshot.info());
   components_.emplace(scene, snapshot, missing_sizes(scene, progress), notes, periodic_box_);
   auto fields = components_->fields().begin();

@@ -8,7 +8,7 @@
 #include "common/mapped_file.h"
 #include "common/marked_file.h"
 #include "common/unfinished_file.h"
-#include "common/word_hash.h"
+#include "scene/word_hash.h"
 
 namespace splotchcl {
 namespace {

@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "common/decimals.h"
+#include "common/utf8.h"
 #include "load/passes.h"
 #include "load/suggest_scene_camera.h"
 #include "scene/statistics.h"
@@ -335,6 +336,7 @@ Scene suggest_scene(const Snapshot& snapshot) {
   }
   Scene scene;
   scene.snapshot = info.files.front().string();
+  require_utf8(scene.snapshot);
   scene.image.gamma = gamma;
   show_all_light(scene.finish);
   scene.components = choose_components(snapshot);

@@ -96,6 +96,20 @@ std::set<std::filesystem::path> files_read(const std::filesystem::path& file, co
   return inputs.all();
 }
 
+WatchedFiles watched_files(const Scene& scene, const Snapshot& snapshot) {
+  WatchedFiles watched;
+  for (const std::filesystem::path& file : snapshot.info().files)
+    watched.add(file);
+  for (const std::filesystem::path& file : snapshot.info().files_beside)
+    watched.add(file);
+  Scene copy = scene;
+  scene_file::change_file_names(copy, [&watched](const std::string& name) {
+    watched.add(name);
+    return name;
+  });
+  return watched;
+}
+
 void require_same_files(Communicator& ranks, const std::set<std::filesystem::path>& files,
                         ContentMarks& marks) {
   const std::string advice = "give all processes the same files";

@@ -48,6 +48,10 @@ class InputFiles {
 std::set<std::filesystem::path> files_read(const std::filesystem::path& file, const Scene& scene,
                                            const Snapshot& snapshot);
 
+// What of these is read as long as a picture is drawn: the snapshot, and what the scene's keys
+// name.
+WatchedFiles watched_files(const Scene& scene, const Snapshot& snapshot);
+
 // Collective, before anything is drawn. Throws DeviceError on all ranks where they have not as many
 // files, or one of these that holds something else: hosts may have disks of their own. Of large
 // files stretches are compared.

@@ -90,6 +90,8 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
 bool begins_like_text(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return false;
+  // Some of the system's own claim to be empty, and keep their reader waiting.
+  if (std::filesystem::file_size(path, error) == 0) return false;
   std::array<char, 256> start;
   std::ifstream file(path, std::ios::binary);
   file.read(start.data(), start.size());

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "openimageio/film_scan_length.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -70,7 +71,7 @@ void check_claim_of_gif(const std::filesystem::path& path) {
 }  // namespace
 
 std::string first_line(const std::string& text) {
-  return text.empty() ? "unknown error" : text.substr(0, text.find('\n'));
+  return text.empty() ? "the library does not say how; it may be cut" : text.substr(0, text.find('\n'));
 }
 
 std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path,
@@ -85,7 +86,11 @@ std::unique_ptr<OIIO::ImageInput> open_image(const std::filesystem::path& path,
   if (spec.deep || spec.depth > 1 || spec.nchannels < 1) {
     throw DataError(path.string() + ": is not a flat picture of colours");
   }
+  if (std::string_view(input->format_name()) == "zfile") {
+    throw DataError(path.string() + ": is a map of depths, expected a picture");
+  }
   check_claim(path, input->format_name(), spec);
+  check_length_of_film_scan(path);
   return input;
 }
 

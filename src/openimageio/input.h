@@ -9,7 +9,7 @@
 
 namespace splotchcl {
 
-// OpenImageIO may report a line for each part that failed; ours are one line.
+// OpenImageIO may report a line for each part that failed, or none; ours are one line.
 std::string first_line(const std::string& text);
 
 // `hints` tell the reader of the format what is wanted. Throws DataError for what is no flat

@@ -35,12 +35,15 @@ void add_errors(py::module_& module) {
   add("DeviceError", PyExc_RuntimeError);
 }
 
-// What a compiler says has several lines.
+// What a compiler says has several lines. Names of files that are no UTF-8 are what Python makes of
+// them.
 void raise(const char* name, const Error& error) {
   std::string message = error.what();
   std::replace(message.begin(), message.end(), '\n', ' ');
   const py::object kind = py::module_::import(module_name).attr(name);
-  PyErr_SetString(kind.ptr(), message.c_str());
+  const py::object text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+      message.data(), static_cast<Py_ssize_t>(message.size()), "surrogateescape"));
+  if (text) PyErr_SetObject(kind.ptr(), text.ptr());
 }
 
 void translate(std::exception_ptr thrown) {

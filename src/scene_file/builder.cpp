@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "common/utf8.h"
 #include "scene/constants.h"
 #include "scene_file/give_way.h"
 #include "scene_file/key_depth.h"
@@ -121,6 +122,7 @@ Scene SceneBuilder::finish() const {
 }
 
 void SceneBuilder::apply_setting(const std::string& setting) {
+  require_utf8(setting);
   const Setting parts = split_setting(setting);
   const std::string where = fmt::format("setting \"{}\"", one_line(setting));
   const KeyAddress address = locate(parts.key, scene_, where);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <sstream>
 
+#include "common/utf8.h"
 #include "snapshot/particle_types.h"
 
 namespace splotchcl::scene_file {
@@ -294,16 +295,14 @@ std::string write_number(double value) {
 }
 
 std::string write_text(const std::string& value) {
+  require_utf8(value);
   std::string quoted = "\"";
-  for (const char c : value) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (code < 0x20 || code == 0x7f) {
-      quoted += fmt::format("\\u{:04X}", code);
+  for (const Character& character : characters_of(value)) {
+    if (character.bytes == "\"" || character.bytes == "\\") quoted += '\\';
+    if (is_control(*character.code)) {
+      quoted += fmt::format("\\u{:04X}", static_cast<unsigned>(*character.code));
     } else {
-      quoted += c;
+      quoted += character.bytes;
     }
   }
   return quoted + "\"";

@@ -36,13 +36,18 @@ double shorter_way(double displacement, const std::optional<PeriodicRange>& peri
   return displacement - period->size * std::round(displacement / period->size);
 }
 
+// Up to so much of a side beyond it particles have left the box since they were last put into it.
+constexpr double just_left = 0.01;
+
 bool lies_within(const PathEnd& of, const PeriodicRange& range) {
+  const double lowest = range.lower - just_left * range.size;
+  const double highest = range.lower + (1 + just_left) * range.size;
   std::atomic<bool> all{true};
   for_blocks(of.position.size(), 3 * block_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && all.load(std::memory_order_relaxed); ++i) {
       if (!std::isfinite(of.position[i])) continue;
       const double x = of.origin.a[i % 3] + static_cast<double>(of.position[i]);
-      if (x < range.lower || x > range.lower + range.size) all = false;
+      if (x < lowest || x > highest) all = false;
     }
   });
   return all;

@@ -28,8 +28,9 @@ struct TypePath {
 ColumnBetween interpolate_positions(const TypePath& path, std::shared_ptr<const IdMatch> match,
                                     double fraction);
 
-// The period in which both columns lie, from 0 or around 0; none where they lie in neither:
-// the header's box is then not that of the particles. `box` as the header has it.
+// The period in which both columns lie, or beside which by a hundredth of it at most, from 0 or
+// around 0; none where they lie in neither: the header's box is then not that of the particles.
+// `box` as the header has it.
 std::optional<PeriodicRange> find_periodic_range(double box, const PathEnd& first,
                                                  const PathEnd& second);
 

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <charconv>
+#include <chrono>
+#include <system_error>
 
 #include "common/folder_of.h"
 #include "splotchcl/error.h"
@@ -129,6 +131,28 @@ bool ExistingFiles::have(const fs::path& path) {
     }
   }
   return false;
+}
+
+WordHash hash_of_files(const SnapshotInfo& info) {
+  WordHash hash;
+  std::vector<fs::path> files = info.files;
+  files.insert(files.end(), info.files_beside.begin(), info.files_beside.end());
+  for (const fs::path& file : files) {
+    std::error_code missing;
+    hash.add(file.filename().string());
+    hash.add(std::uint64_t{fs::file_size(file, missing)});
+    const auto time = fs::last_write_time(file, missing).time_since_epoch();
+    hash.add(static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(time).count()));
+  }
+  return hash;
+}
+
+void check_files_are_the_same(const SnapshotInfo& info) {
+  if (hash_of_files(info).value() == info.files_mark) return;
+  throw DataError(info.files.front().string() +
+                  ": the snapshot was written anew, moved or removed since it was opened; open it "
+                  "again when it is complete");
 }
 
 }  // namespace splotchcl

@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "scene/word_hash.h"
+#include "splotchcl/snapshot.h"
+
 namespace splotchcl {
 
 // A file name of a multi-file set: snapshot_002.1.hdf5 is base snapshot_002, index 1,
@@ -25,6 +28,13 @@ std::vector<std::filesystem::path> find_members(const std::filesystem::path& mem
 // The existing file that `path` stands for when it is the base name of a set or lacks
 // its ending. Throws DataError when there is none, or more than one.
 std::filesystem::path find_by_base_name(const std::filesystem::path& path);
+
+// Of the names, lengths and times of a snapshot's files, as they are now.
+WordHash hash_of_files(const SnapshotInfo& info);
+
+// For a snapshot that opens its files by their names again. Throws DataError where they are others
+// than those of its header.
+void check_files_are_the_same(const SnapshotInfo& info);
 
 // Tells whether a path is a file or a folder, or the base name of a set, or lacks its ending.
 // Reads each folder once, for looking up many names.

@@ -32,6 +32,22 @@ double widest_pixel(const Frame& frame) {
   return widest;
 }
 
+// Whether a disc of this radius in sigma reaches pixels of the picture.
+bool is_in_picture(const SplatAround& disc, double radius, const Frame& frame) {
+  const auto reaches = [radius](double place, double sigma, int pixels) {
+    return place + radius * sigma > 0 && place - radius * sigma < pixels;
+  };
+  return reaches(disc.x, disc.sigma_x, frame.width) && reaches(disc.y, disc.sigma_y, frame.height);
+}
+
+// Nothing between the pixels tells where a disc ends.
+constexpr double single_pixels = 0.5;
+
+double narrowest_of(const SplatAround& splat, const Frame& frame) {
+  if (frame.kernel.cut && is_in_picture(splat, *frame.kernel.cut, frame)) return single_pixels;
+  return std::min(splat.sigma_x, splat.sigma_y);
+}
+
 }  // namespace
 
 double narrowest_detail(const std::vector<CloudAround>& clouds, std::size_t first, std::size_t end,
@@ -43,7 +59,7 @@ double narrowest_detail(const std::vector<CloudAround>& clouds, std::size_t firs
     if (cloud.ray > 0)
       farthest = std::max(farthest, std::hypot(center.a[0], center.a[1], center.a[2]));
     for (const SplatAround& splat : cloud.splats)
-      narrowest = std::min({narrowest, splat.sigma_x, splat.sigma_y});
+      narrowest = std::min(narrowest, narrowest_of(splat, frame));
   }
   return std::min(narrowest, 1 / (farthest * widest_pixel(frame)));
 }

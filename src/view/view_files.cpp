@@ -28,7 +28,8 @@ std::set<fs::path> files_of(const ViewInputs& inputs) {
 
 SaveResult check(const fs::path& path, bool may_replace, const ViewInputs& inputs) {
   check_outputs({{path, "the file to save"}}, [&] { return files_of(inputs); });
-  return fs::exists(path) && !may_replace ? SaveResult::exists : SaveResult::saved;
+  std::error_code ignored;  // who writes it says what is wrong
+  return fs::exists(path, ignored) && !may_replace ? SaveResult::exists : SaveResult::saved;
 }
 
 }  // namespace

@@ -301,10 +301,102 @@ Trial with_background(Random& random) {
   return trial;
 }
 
+// As scenes of the original program are drawn.
+void use_kernel_of_original(Trial& trial, Random& random) {
+  trial.sampling = Sampling::center;
+  trial.cut = random.uniform(1.2, 3);
+}
+
+// Thin matter of a bright source beside, before or behind thick matter of a faint one.
+Trial two_sources(Random& random) {
+  CloudGroup gas = group_of(Arrangement::point, random, 1, 20, 0.05, 5);
+  gas.star = 0;
+  gas.copies = whole(random, 1, 20);
+  CloudGroup stars = group_of(Arrangement::point, random, 1, 30, 1e-3, 1);
+  stars.star = 1;
+  stars.copies = whole(random, 1, 40);
+  Trial trial = with({gas, stars});
+  trial.source = random.logarithmic(1e-3, 1);
+  trial.star_source = random.logarithmic(1, 1e3);
+  if (random.uniform() < 0.5) use_kernel_of_original(trial, random);
+  return trial;
+}
+
+// One channel is deep where the mean of all is not.
+Trial tinted_matter(Random& random) {
+  Trial trial = any_base(random);
+  trial.tint = random.uniform(0.8, 1);
+  trial.source = random.logarithmic(1e-3, 10);
+  trial.background = random.logarithmic(1, 1e3);
+  if (random.uniform() < 0.5) use_kernel_of_original(trial, random);
+  return trial;
+}
+
+Trial many_colors(Random& random) {
+  Trial trial = any_base(random);
+  trial.knots = whole(random, 3, 300);
+  if (random.uniform() < 0.7) trial.decades = random.logarithmic(0.3, 20);
+  for (CloudGroup& group : trial.groups)
+    group.peak = random.logarithmic(1, 1e5);
+  return trial;
+}
+
+// Clouds so near that rays find a part of them.
+Trial clouds_around(Random& random) {
+  Trial trial = any_base(random);
+  trial.around = 1;
+  trial.projection = random.uniform() < 0.7 ? Projection::perspective : Projection::fisheye;
+  if (random.uniform() < 0.5) trial.cut = random.logarithmic(0.03, 3);
+  trial.field_of_view = random.uniform(40, 90);
+  for (CloudGroup& group : trial.groups) {
+    group.sigma = random.logarithmic(3, 20);
+    group.peak = random.logarithmic(1e-2, 10);
+  }
+  return trial;
+}
+
+Trial wide_picture(Random& random) {
+  Trial trial = bright_stars(random);
+  trial.picture_size = random.uniform() < 0.5 ? 65536 : 32768;
+  return trial;
+}
+
+// So many particles, wide and dim, that slabs seem to pay.
+Trial chosen_slabs(Random& random) {
+  CloudGroup wide = group_of(Arrangement::scatter, random, 8, 30, 1e-5, 3e-4);
+  wide.places = whole(random, 8, 20);
+  wide.copies = whole(random, 200, 400);
+  CloudGroup narrow = group_of(Arrangement::scatter, random, 0.5, 4, 1e-4, 1e-2);
+  narrow.places = whole(random, 1, 50);
+  Trial trial = with({wide, narrow});
+  trial.source = random.logarithmic(0.01, 0.2);
+  trial.filler = 530000;
+  return trial;
+}
+
+Trial certified(Random& random) {
+  const auto choice = static_cast<int>(random.uniform(0, 6));
+  Trial trial = choice == 0   ? two_sources(random)
+                : choice == 1 ? tinted_matter(random)
+                : choice == 2 ? many_colors(random)
+                : choice == 3 ? cut_kernel(random)
+                              : any_base(random);
+  trial.certify = 1;
+  return trial;
+}
+
 std::function<Trial(Random&)> seen_in(Projection projection) {
   return [projection](Random& random) { return in_projection(projection, random); };
 }
 
+}  // namespace
+
+namespace {
+std::vector<Light> with_two_sources() {
+  std::vector<Light> lights = all_lights;
+  lights.push_back(Light::two_sources);
+  return lights;
+}
 }  // namespace
 
 const std::vector<TrialClass>& all_classes() {
@@ -365,6 +457,31 @@ const std::vector<TrialClass>& all_classes() {
        {Light::ordered, Light::gray, Light::stars_among_gas},
        {1e-3, 1e-2},
        slabs},
+      {"chosen_slabs",
+       "the same of so many that the plan chooses slabs",
+       {Light::ordered, Light::gray},
+       {1e-3, 1e-2},
+       chosen_slabs},
+      {"two_sources",
+       "thin matter may shine brighter than anything that is seen",
+       {Light::two_sources},
+       usual,
+       two_sources},
+      {"tinted_matter",
+       "one channel hides what the others show",
+       {Light::ordered},
+       usual,
+       tinted_matter},
+      {"many_colors", "places in a palette are rounded", all_lights, usual, many_colors},
+      {"clouds_around", "what rays find of clouds is smooth but for where they are cut", all_lights,
+       usual, clouds_around},
+      {"wide_picture", "so wide a picture leaves few digits to places", all_lights, usual,
+       wide_picture},
+      {"certified",
+       "a bound is not passed anywhere",
+       with_two_sources(),
+       {1e-3, 3e-3, 1e-4},
+       certified},
       {"min_radius", "widths and weights change together", all_lights, usual, smallest_radius},
       {"crop", "what is drawn lies anywhere in its picture", all_lights, usual, crop_of_a_picture},
       {"perspective", "places are quotients", all_lights, usual, seen_in(Projection::perspective)},

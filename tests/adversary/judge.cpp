@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "adversary/trial_frame.h"
@@ -12,11 +11,6 @@
 
 namespace splotchcl::adversary {
 namespace {
-
-// The bound of this frame's error that the renderer gives, where it gives one.
-double certified_error(const RenderStats&) {
-  return std::numeric_limits<double>::quiet_NaN();
-}
 
 // Pixels whose centre is so close to the edge of a cut disc that single precision may put it on
 // either side, which docs/accuracy.md takes out of the promise.
@@ -40,15 +34,25 @@ std::vector<bool> pixels_on_cut_edges(const Frame& frame) {
   return on_edge;
 }
 
+// Pixel by pixel.
+double certified_at(const FrameCheck& check, int pixel, int width) {
+  return static_cast<double>(check.blocks.at(pixel % width, pixel / width));
+}
+
 void compare(const Image& image, const ReferenceImage& exact, const std::vector<bool>& left_out,
-             Measurement& worst) {
+             const FrameCheck& check, Measurement& worst) {
   for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
     if (i % 4 == 3 || left_out[i / 4]) continue;
     const auto drawn = static_cast<double>(image.pixels[i]);
     const double error =
         std::abs(drawn - exact.pixels[i]) / std::max(1.0, std::abs(exact.pixels[i]));
-    if (error <= worst.error) continue;
     const auto pixel = static_cast<int>(i / 4);
+    if (check.is_bound && error > 0) {
+      const double certified = certified_at(check, pixel, exact.width);
+      worst.certified = std::max(worst.certified, certified);
+      worst.over_certified = std::max(worst.over_certified, error / certified);
+    }
+    if (error <= worst.error) continue;
     worst.error = std::isfinite(error) ? error : 1e300;
     worst.x = pixel % exact.width;
     worst.y = pixel / exact.width;
@@ -63,21 +67,26 @@ void compare(const Image& image, const ReferenceImage& exact, const std::vector<
 Measurement Judge::measure(const Trial& trial) {
   const Frame frame = make_frame(trial);
   const Frame merged = make_merged_frame(trial);
-  Renderer& renderer = this->renderer(trial.shape);
+  Renderer& renderer = this->renderer(trial.shape, trial.certify > 0);
   PlanOptions options;
+  options.certify = trial.certify > 0;
   if (trial.slabs > 0) options.slabs = static_cast<int>(trial.slabs);
   const Image image = renderer.render(frame, make_plan(frame, options));
   Measurement measurement;
   measurement.plan = choose_light(frame);
-  measurement.promise = trial.tolerance > 0 ? trial.tolerance : extended_tolerance;
-  measurement.certified = certified_error(renderer.stats());
-  compare(image, reference::render(merged), pixels_on_cut_edges(merged), measurement);
+  measurement.promise = std::max(trial.tolerance, extended_tolerance);
+  compare(image, reference::render(merged), pixels_on_cut_edges(merged), renderer.stats().check,
+          measurement);
   return measurement;
 }
 
-Renderer& Judge::renderer(CompositeShape shape) {
-  std::unique_ptr<Renderer>& renderer = renderers_[shape];
-  if (!renderer) renderer = std::make_unique<Renderer>(RendererOptions{"", shape});
+Renderer& Judge::renderer(CompositeShape shape, bool certify) {
+  std::unique_ptr<Renderer>& renderer = renderers_[{shape, certify}];
+  if (renderer) return *renderer;
+  RendererOptions options;
+  options.shape = shape;
+  options.certify = certify;
+  renderer = std::make_unique<Renderer>(options);
   return *renderer;
 }
 

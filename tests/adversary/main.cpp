@@ -58,7 +58,12 @@ Options short_options() {
                    "sheets",
                    "bright_stars",
                    "large_picture",
-                   "ring_before_sheet"};
+                   "ring_before_sheet",
+                   "two_sources",
+                   "tinted_matter",
+                   "many_colors",
+                   "clouds_around",
+                   "certified"};
   options.last_seed = 2;
   return options;
 }

@@ -34,6 +34,7 @@ enum class Light {
   ordered,          // absorption has a palette of its own
   gray,             // as in the original program
   stars_among_gas,  // groups with `star` only emit, the others absorb as well
+  two_sources,      // groups with `star` have an E / A of their own
 };
 
 struct CloudGroup {
@@ -49,7 +50,8 @@ struct CloudGroup {
   double depth = 10;       // lengths from the camera
   double hue = 0;          // place on the palette
   double color = 1;        // of the particles' own colors; the peak stays
-  double star = 0;         // 1: emits and does not absorb, in Light::stars_among_gas
+  double star = 0;         // 1: emits and does not absorb, in Light::stars_among_gas,
+                           // or has star_source, in Light::two_sources
 };
 
 struct Trial {
@@ -66,10 +68,16 @@ struct Trial {
   double turned = 0;               // 1: the camera looks along no axis
   double background = 0;           // light; 0: none
   double source = 1;               // E / A where the light leaves that open
+  double star_source = 1;          // that of stars, in Light::two_sources
+  double tint = 0;                 // of what absorbs in Light::ordered: 1: red alone
+  double knots = 2;                // of the palette, in two colors by turns
+  double decades = 0;              // of the palette's range, which is logarithmic; 0: linear
   double cut = 0;                  // kernel.cut; 0: none
   double min_radius = 0;           // kernel.min_radius, in pixels
   double slabs = 0;                // of an ordered plan: at least so many; 0: as it is planned
   double own_colors = 0;           // 1: particles have colors of their own
+  double around = 0;               // 1: the camera sees through clouds around it
+  double certify = 0;              // 1: the picture's error is to have a bound
   double filler = 0;               // faint particles that lie outside, as most of a file may
   double period = 0;  // the groups' clouds are each so-many-th of the file; 0: the first ones
   double offset = 0;  // from this place in the file on

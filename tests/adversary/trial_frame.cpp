@@ -69,6 +69,7 @@ Frame empty_frame_of(const Trial& trial) {
   frame.camera.pixels_per_length = frame.camera.focal_pixels;
   frame.background.fill(trial.background);
   frame.tolerance = trial.tolerance;
+  frame.through_clouds = trial.around > 0;
   frame.kernel.width = 1;
   frame.kernel.sampling = trial.sampling;
   if (trial.cut > 0) frame.kernel.cut = trial.cut;
@@ -213,6 +214,7 @@ std::vector<Place> places_of(const Trial& trial) {
 
 struct ParticleArrays {
   bool own_colors;
+  double decades;
   std::vector<float> position = {}, h = {}, mass = {}, color = {}, own_color = {};
 
   void add(const Place& place, double copies, const Frame& frame) {
@@ -229,7 +231,8 @@ struct ParticleArrays {
       position.push_back(static_cast<float>(coordinate));
     h.push_back(static_cast<float>(size));
     mass.push_back(static_cast<float>(copies) * short_float(column * pi * size * size));
-    color.push_back(static_cast<float>(place.group->hue));
+    color.push_back(static_cast<float>(decades > 0 ? std::pow(10, decades * place.group->hue)
+                                                   : place.group->hue));
     const auto own = static_cast<float>(place.group->color);
     own_color.insert(own_color.end(), {own, 0.7f * own, 0.3f * own});
   }
@@ -239,7 +242,7 @@ struct ParticleArrays {
     position.insert(position.end(), {-1e6f, -1e6f, 1.0f});
     h.push_back(1);
     mass.push_back(1e-3f);
-    color.push_back(0);
+    color.push_back(1);
     own_color.insert(own_color.end(), {1, 1, 1});
   }
 
@@ -252,8 +255,20 @@ struct ParticleArrays {
   }
 };
 
-DrawnComponent component_of(ParticleArrays arrays) {
+Palette palette_of(const Trial& trial) {
+  constexpr Rgb warm = {1.0f, 0.3f, 0.05f}, cold = {0.2f, 0.6f, 1.0f}, red = {1, 0, 0},
+                blue = {0, 0.5f, 1};
+  Palette palette;
+  // Colors that change often are those that are dark where the others are bright.
+  const bool is_dark = trial.knots > 2;
+  for (int k = 0; k < std::max(whole(trial.knots), 2); ++k)
+    palette.emission.push_back(k % 2 == 0 ? (is_dark ? red : warm) : (is_dark ? blue : cold));
+  return palette;
+}
+
+DrawnComponent component_of(const Trial& trial, ParticleArrays arrays) {
   DrawnComponent component;
+  if (trial.decades > 0) component.color = {Scaling::log, 0, trial.decades};
   component.particles.count = arrays.h.size();
   component.particles.position = Column::owning(std::move(arrays.position));
   component.particles.smoothing_length = Column::owning(std::move(arrays.h));
@@ -261,8 +276,13 @@ DrawnComponent component_of(ParticleArrays arrays) {
   component.particles.color = Column::owning(std::move(arrays.color));
   if (arrays.own_colors)
     component.particles.color_vector = Column::owning(std::move(arrays.own_color));
-  component.palette.emission = {Rgb{1.0f, 0.3f, 0.05f}, Rgb{0.2f, 0.6f, 1.0f}};
+  component.palette = palette_of(trial);
   return component;
+}
+
+std::vector<Rgb> absorption_of(const Trial& trial) {
+  const auto left = static_cast<float>(1 - trial.tint);
+  return {Rgb{1, left, left}, Rgb{0.3f, 0.1f * left, 0.5f * left}};
 }
 
 void choose_light(const Trial& trial, DrawnComponent& component) {
@@ -276,11 +296,12 @@ void choose_light(const Trial& trial, DrawnComponent& component) {
       break;
     case Light::factor:
     case Light::stars_among_gas:
+    case Light::two_sources:
       component.absorption = {Kind::factor, 1 / trial.source};
       break;
     case Light::ordered:
       component.absorption = {Kind::factor, 1 / trial.source};
-      component.palette.absorption = {Rgb{1, 1, 1}, Rgb{0.3f, 0.1f, 0.5f}};
+      component.palette.absorption = absorption_of(trial);
       break;
     case Light::gray:
       component.absorption = {Kind::gray, trial.source};
@@ -289,15 +310,24 @@ void choose_light(const Trial& trial, DrawnComponent& component) {
 }
 
 bool is_star(const CloudGroup& group, const Trial& trial) {
-  return trial.light == Light::stars_among_gas && group.star > 0;
+  const bool has_stars = trial.light == Light::stars_among_gas || trial.light == Light::two_sources;
+  return has_stars && group.star > 0;
+}
+
+// Of one source nothing would have to be in order.
+double distinct_source(const Trial& trial) {
+  return trial.star_source == trial.source ? 2 * trial.source : trial.star_source;
 }
 
 Frame with_components(const Trial& trial, Frame frame, ParticleArrays gas, ParticleArrays stars) {
-  frame.components = {component_of(std::move(gas))};
+  frame.components = {component_of(trial, std::move(gas))};
   choose_light(trial, frame.components.front());
-  if (trial.light != Light::stars_among_gas) return frame;
-  frame.components.push_back(component_of(std::move(stars)));
-  frame.components.back().absorption.kind = Absorption::Kind::none;
+  if (trial.light != Light::stars_among_gas && trial.light != Light::two_sources) return frame;
+  frame.components.push_back(component_of(trial, std::move(stars)));
+  Absorption& of_stars = frame.components.back().absorption;
+  of_stars.kind = Absorption::Kind::none;
+  if (trial.light == Light::two_sources)
+    of_stars = {Absorption::Kind::factor, 1 / distinct_source(trial)};
   return frame;
 }
 
@@ -314,7 +344,7 @@ bool is_turn_of_filler(std::size_t next, const Trial& trial) {
 Frame make_frame(const Trial& trial) {
   const Frame frame = empty_frame_of(trial);
   const std::vector<Place> places = places_of(trial);
-  ParticleArrays gas{trial.own_colors > 0}, stars = gas;
+  ParticleArrays gas{trial.own_colors > 0, trial.decades}, stars = gas;
   auto filler = static_cast<std::size_t>(trial.filler);
   for (const Place& place : places) {
     for (int copy = 0; copy < place.copies; ++copy) {
@@ -331,7 +361,7 @@ Frame make_frame(const Trial& trial) {
 Frame make_merged_frame(const Trial& trial) {
   const Frame frame = empty_frame_of(trial);
   const std::vector<Place> places = places_of(trial);
-  ParticleArrays gas{trial.own_colors > 0}, stars = gas;
+  ParticleArrays gas{trial.own_colors > 0, trial.decades}, stars = gas;
   for (const Place& place : places) {
     const int times = trial.light == Light::gray ? place.copies : 1;
     const double copies = trial.light == Light::gray ? 1 : place.copies;

@@ -236,22 +236,41 @@ Image even_picture(double light, double opacity) {
   return image;
 }
 
-// Behind thin layers light errs by the same part as they do, behind deeper ones by 1 / e of a
-// source at most.
+// A picture without splats whose blocks are so deep.
+CollectedSplats as_deep(double depth) {
+  CollectedSplats splats;
+  splats.depths.assign(static_cast<std::size_t>(size / 16) * (size / 16),
+                       static_cast<float>(depth));
+  return splats;
+}
+
+// Layers add no more than the light, and take no more away than as much for each depth of 1 that
+// lies before it.
 TEST_F(CertificateTest, CountsTheSeriesOfLayersByTheLightThatTheyShowIn) {
   frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
   plan_ = make_plan(frame_);
-  const auto of_layers = [&](double light, double opacity) {
-    const Image image = even_picture(light, opacity);
-    return certify({{}, 1, {}}, image, frame_, plan_).worst.rest * frame_.tolerance -
-           plan_.shares.early_stop;
+  const auto of_layers = [&](double light, double depth) {
+    const Image image = even_picture(light, 0);
+    const Certificate certificate = certify(as_deep(depth), image, frame_, plan_);
+    return certificate.worst.rest * frame_.tolerance - plan_.shares.early_stop;
   };
   const double part = plan_.layers.part;
-  EXPECT_NEAR(of_layers(0, 0.5), 0, 1e-9);
-  EXPECT_NEAR(of_layers(0.05, 0.5), 0.05 * part, 1e-9);
-  EXPECT_NEAR(of_layers(0.05, 1 - std::exp(-3)), 2 * 0.05 * part, 1e-9);
-  EXPECT_NEAR(of_layers(0.05, 1), std::log(1 / 0.05) * 0.05 * part, 1e-9);
-  EXPECT_NEAR(of_layers(std::exp(-1), 1), std::exp(-1) * part, 1e-9);
+  EXPECT_NEAR(of_layers(0, 0.7), 0, 1e-8);
+  EXPECT_NEAR(of_layers(0.05, 0.7), 0.05 * part, 1e-8);
+  EXPECT_NEAR(of_layers(0.05, 3), 3 * 0.05 * part, 1e-8);
+  EXPECT_NEAR(of_layers(0.05, 88), (1 + std::log(1 / 0.05)) * 0.05 * part, 1e-8);
+  EXPECT_NEAR(of_layers(1, 88), part, 1e-8);
+}
+
+// Alpha is a mean of three channels, of which one may hide all that the others show.
+TEST_F(CertificateTest, TakesOneChannelForAsOpaqueAsAlphaAllows) {
+  frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
+  plan_ = make_plan(frame_);
+  const auto of_layers = [&](double opacity) {
+    return certify({}, even_picture(0.05, opacity), frame_, plan_).worst.rest;
+  };
+  EXPECT_LT(of_layers(0.3), of_layers(0.33));
+  EXPECT_EQ(of_layers(0.34), of_layers(1));
 }
 
 TEST_F(CertificateTest, AsksForMoreTermsOfThePhiOfLayersInALightPicture) {
@@ -279,7 +298,8 @@ TEST_F(CertificateTest, CountsLayersBeforeAStarAsPartsOfItsLight) {
   Image image = even_picture(0.01, 0.5);
   const std::size_t star = image.pixels.size() / 2;
   std::fill_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(star), 3, 1000.0f);
-  EXPECT_TRUE(certify({}, image, frame_, plan_).keeps_promise());
+  EXPECT_TRUE(certify(as_deep(0.7), image, frame_, plan_).keeps_promise());
+  EXPECT_FALSE(certify(as_deep(70), image, frame_, plan_).keeps_promise());
 }
 
 TEST_F(CertificateTest, FindsNothingLeftOutOfACutKernel) {

@@ -164,11 +164,29 @@ TEST(BlockSums, AreEmptyFarFromTheCells) {
   EXPECT_EQ(sums.over({20, 30, 0, 3}), 0);
 }
 
+// A star of some color among these knots, and the range of its field.
+Frame star_among(const std::vector<Rgb>& knots, const ScalarMap& range) {
+  DrawnComponent component = component_of({{0, 0, 1, 3, 1}}, {"some colors", knots, {}});
+  component.particles.color = Column::uniform(1);
+  component.color = range;
+  component.absorption = {Absorption::Kind::none, 0};
+  return frame_of(10, 10, {component});
+}
+
+FramePlan certified(const Frame& frame) {
+  PlanOptions options;
+  options.certify = true;
+  return make_plan(frame, options);
+}
+
 double part_of_range(Scaling scaling, double minimum, double maximum) {
-  DrawnComponent component =
-      component_of({{0, 0, 1, 3, 1}}, {"two colors", {{1, 0, 0}, {0, 0, 1}}, {}});
-  component.color = {scaling, minimum, maximum};
-  return part_of_colors(frame_of(10, 10, {component}));
+  const Frame frame = star_among({{1, 0, 0}, {0, 0, 1}}, {scaling, minimum, maximum});
+  return part_of_colors(frame, certified(frame));
+}
+
+double part_of_knots(const std::vector<Rgb>& knots) {
+  const Frame frame = star_among(knots, {Scaling::linear, 0, 1});
+  return part_of_colors(frame, certified(frame));
 }
 
 TEST(ColorErrors, DoNotFollowTheRange) {
@@ -179,15 +197,26 @@ TEST(ColorErrors, DoNotFollowTheRange) {
 }
 
 TEST(ColorErrors, GrowAsTheRangeBecomesNarrowBesideLogarithmsOfWhatFloatsHardlyHold) {
-  // Of the logarithm 4 * 39 over the range, beside 2 of the difference.
-  EXPECT_NEAR(part_of_range(Scaling::log, -39, -38.995) / part_of_range(Scaling::log, -39, -34),
-              31202 / 33.2, 1);
+  EXPECT_GT(part_of_range(Scaling::log, -39, -38.995), 500 * part_of_range(Scaling::log, -39, -34));
+}
+
+TEST(ColorErrors, GrowWithTheNumberOfTimesThatColorsChange) {
+  const Rgb red = {1, 0, 0}, blue = {0, 0, 1};
+  EXPECT_NEAR(part_of_knots({red, blue, red, blue, red}), 4 * part_of_knots({red, blue}), 1e-12);
+  EXPECT_LT(part_of_knots({red, {1, 0, 0.1f}}), 0.2 * part_of_knots({red, blue}));
+}
+
+TEST(ColorErrors, OfAFastPictureAreLessThanItsBoundAndMoreThanOfAnExtendedOne) {
+  const Frame frame = star_among({{1, 0, 0}, {0, 0, 1}}, {Scaling::log, 1, 8});
+  const FramePlan plan = make_plan(frame);
+  const double part = part_of_colors(frame, plan);
+  EXPECT_LT(part, part_of_colors(frame, certified(frame)));
+  EXPECT_GT(part, 1000 * part_of_colors(frame, extend_plan(frame, plan)));
 }
 
 TEST(ColorErrors, AreNoneOfAPaletteOfOneColor) {
-  DrawnComponent component = component_of({{0, 0, 1, 3, 1}}, one_color(1, 0.5, 0));
-  component.color = {Scaling::log, 5.999, 6};
-  EXPECT_EQ(part_of_colors(frame_of(10, 10, {component})), 0);
+  EXPECT_EQ(part_of_knots({{1, 0.5f, 0}}), 0);
+  EXPECT_EQ(part_of_knots({{1, 0.5f, 0}, {1, 0.5f, 0}}), 0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 
 #include "common/quiet_errors.h"
 #include "common/unfinished_file.h"
@@ -21,6 +22,16 @@ TEST(CrashGuard, EndsAnAbortedProgramWithALine) {
       {
         guard_crashes();
         std::abort();
+      },
+      ExitedWithCode(1), "^splotchcl: a library failed.*\n$");
+}
+
+TEST(CrashGuard, NeedsNoSignalWhereAnExceptionGoesTooFar) {
+  EXPECT_EXIT(
+      {
+        guard_crashes();
+        std::signal(SIGABRT, SIG_DFL);  // as OpenCL's compiler does it for a time
+        std::terminate();
       },
       ExitedWithCode(1), "^splotchcl: a library failed.*\n$");
 }

@@ -21,15 +21,14 @@ std::vector<ProgramSource> programs_of(const Variant& variant) {
                                          list_around_program(variant), behind_program(variant),
                                          resolve_program(variant)};
   for (const ProjectOutput output :
-       {ProjectOutput::counts, ProjectOutput::splats, ProjectOutput::splats_and_keys,
-        ProjectOutput::key_counts, ProjectOutput::window_counts, ProjectOutput::window_splats})
+       {ProjectOutput::splats, ProjectOutput::splats_and_keys, ProjectOutput::key_counts})
     programs.push_back(project_program(variant, output));
   if (variant.extended) return programs;
   if (variant.is_ordered()) programs.push_back(composite_with_clouds_program(variant));
   for (const ProgramSource& program :
        {join_program(variant), composite_program(variant.of_slabs()),
         join_program(variant.of_slabs()), certify_program(variant), refine_program(variant),
-        blur_program(variant), lay_slab_program(variant)})
+        blur_program(variant), lay_slab_program(variant), deepest_program(variant)})
     programs.push_back(program);
   return programs;
 }
@@ -37,9 +36,8 @@ std::vector<ProgramSource> programs_of(const Variant& variant) {
 std::vector<ProgramSource> programs_of_all_frames() {
   return {program_source("kernels/interpolate/interpolate.cl", lanes_of(true)),
           program_source("kernels/interpolate/interpolate.cl", lanes_of(false)),
-          program_source("kernels/project/boxes.cl", {"LANES_8", "VECTOR_COLORS"}),
-          program_source("kernels/project/boxes.cl"),
-          program_source("kernels/project/scan.cl"),
+          program_source("kernels/project/boxes.cl", {"LANES_8", "VECTOR_COLORS 1"}),
+          program_source("kernels/project/boxes.cl", {"VECTOR_COLORS 0"}),
           program_source("kernels/project/compact.cl"),
           program_source("kernels/sort/sort.cl"),
           program_source("kernels/sort/sort_groups.cl"),

@@ -1,5 +1,6 @@
 // Preloaded into the program (LD_PRELOAD), stands for libraries that a damaged file makes crash:
-// SPLOTCHCL_CRASH names the function, of HDF5 or libpng, that does. Others do what they do.
+// SPLOTCHCL_CRASH names the function, of HDF5 or libpng, that does, and SPLOTCHCL_CRASH_IN the
+// program, if it is another than splotchcl. Others do what they do.
 #include <dlfcn.h>
 #include <signal.h>
 
@@ -14,8 +15,9 @@ namespace {
 template <typename Function>
 Function* original_or_crash(Function*, const char* name) {
   const char* const asked = std::getenv("SPLOTCHCL_CRASH");
+  const char* const program = std::getenv("SPLOTCHCL_CRASH_IN");
   if (asked != nullptr && std::strcmp(asked, name) == 0 &&
-      std::strcmp(program_invocation_short_name, "splotchcl") == 0) {
+      std::strcmp(program_invocation_short_name, program == nullptr ? "splotchcl" : program) == 0) {
     ::raise(SIGSEGV);
   }
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));

@@ -38,6 +38,8 @@ inline const std::vector<LightPlan> all_plans = HardCase{}.plans;
 inline const std::vector<LightPlan> absorbing_plans = {LightPlan::proportional, LightPlan::ordered};
 
 std::vector<HardCase> light_cases();       // absorption, depth, dynamic range
+std::vector<HardCase> source_cases();      // bright sources behind thin or tinted matter
+std::vector<HardCase> color_cases();       // palettes
 std::vector<HardCase> layer_cases();       // very many layers in one pixel
 std::vector<HardCase> order_cases();       // depths, keys, coincident particles
 std::vector<HardCase> size_cases();        // widths of clouds, ends of discs

@@ -23,8 +23,8 @@ const std::vector<HardCase>& all_cases() {
   static const std::vector<HardCase> cases = [] {
     std::vector<HardCase> all;
     for (const auto& part :
-         {light_cases(), layer_cases(), order_cases(), size_cases(), camera_cases(),
-          picture_cases(), data_cases(), promise_cases(), wide_angle_cases()}) {
+         {light_cases(), source_cases(), color_cases(), layer_cases(), order_cases(), size_cases(),
+          camera_cases(), picture_cases(), data_cases(), promise_cases(), wide_angle_cases()}) {
       all.insert(all.end(), part.begin(), part.end());
     }
     return all;

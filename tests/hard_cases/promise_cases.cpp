@@ -183,6 +183,15 @@ std::vector<HardCase> promise_cases() {
       found("BrightPartOfALargePicture", "the same of stars of 1e4 times white",
             "turned 1 projection perspective picture_size 16384 field_of_view 50 group scatter "
             "places 50 sigma 0.4 peak 1e4"),
+      found("StarsAtTheEdgeOfThe65536thPixel",
+            "integers that hold so wide a picture have steps of 6e-5 pixels",
+            "turned 1 tolerance 3.01e-4 picture_size 65536 crop_x 1 group scatter places 24 sigma "
+            "0.3 peak 1e3",
+            {LightPlan::emission}),
+      found("StarsOf1e7TimesWhiteAtThe65536thPixel", "the same of bright ones",
+            "turned 1 picture_size 65536 crop_x 1 crop_y 0.3 group scatter places 24 sigma 0.3 "
+            "peak 1e7",
+            {LightPlan::emission, LightPlan::proportional}),
       found("StarsOf30TimesWhiteIn1400Pixels", "a star's light beside it errs by its slope",
             "turned 1 projection perspective picture_size 1400 field_of_view 7.7 group scatter "
             "places 100 sigma 0.5 peak 30"),

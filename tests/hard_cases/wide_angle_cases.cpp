@@ -142,6 +142,19 @@ Frame narrow_cloud_around(LightPlan plan) {
   return lit(frame, plan);
 }
 
+// A disc of two pixels of a cloud that is a hundred wide, between the nodes of what is smooth.
+Frame small_disc_around(LightPlan plan) {
+  Camera camera;
+  camera.field_of_view_degrees = 60;
+  camera.sky = {{0, -1, 0}};
+  camera.look_at = {{0, 0, 1}};
+  Frame frame = seen_by(camera, 512, 512,
+                        {component_of({{-0.5113, -0.9270, 11.4512, 1, 1}}, one_color(1, 1, 1))});
+  frame.through_clouds = true;
+  frame.kernel.cut = 0.05;
+  return lit(frame, plan);
+}
+
 // A crop of a panorama of 16384 x 8192 around this place, with clouds there only.
 Frame part_of_a_large_panorama(int x, int y, LightPlan plan) {
   Frame frame = looking_around(Projection::equirectangular, 16384, 8192);
@@ -193,6 +206,7 @@ std::vector<HardCase> wide_angle_cases() {
       {"DiscsBesideAFaceOfACube", "what is cut off ends sharply",
        [](LightPlan plan) { return stars_beside_a_face(plan, 1.5); }},
       {"NarrowCloudAround", "what is smooth is worked out at few pixels", narrow_cloud_around},
+      {"SmallDiscAround", "where the kernel is cut, nothing is smooth", small_disc_around},
       in_view("FaceOfACubeFromTheRight", "each direction is turned", seen_from_the_right(face(1)),
               any_direction),
   };

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "image/color_profile.h"
+#include "image/png_chunks.h"
 #include "image/png_strips.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
@@ -31,27 +32,8 @@ using splotchcl::test::TemporaryFolder;
 
 constexpr std::uint32_t width = 20000, height = 15000;
 
-std::string little(std::uint32_t number, int bytes) {
-  std::string text;
-  for (int i = 0; i < bytes; ++i)
-    text += static_cast<char>(number >> (8 * i) & 255U);
-  return text;
-}
-
-std::string big(std::uint32_t number, int bytes) {
-  const std::string text = little(number, bytes);
-  return {text.rbegin(), text.rend()};
-}
-
 std::string zeros(std::size_t count) {
   return std::string(count, '\0');
-}
-
-std::string chunk_of_png(const std::string& name_and_data) {
-  const auto sum = ::crc32(0, reinterpret_cast<const Bytef*>(name_and_data.data()),
-                           static_cast<uInt>(name_and_data.size()));
-  return big(static_cast<std::uint32_t>(name_and_data.size() - 4), 4) + name_and_data +
-         big(static_cast<std::uint32_t>(sum), 4);
 }
 
 std::string png() {
@@ -91,9 +73,20 @@ std::string bmp() {
          little(height, 4) + little(1, 2) + little(24, 2) + zeros(24) + "abcd";
 }
 
-std::string dpx() {
+std::string dpx(std::uint32_t columns, std::uint32_t rows) {
   return "SDPX" + big(2048, 4) + "V2.0" + zeros(4) + big(3000, 4) + zeros(748) + big(0, 2) +
-         big(1, 2) + big(width, 4) + big(height, 4) + zeros(2000);
+         big(1, 2) + big(columns, 4) + big(rows, 4);
+}
+
+// Red, green and blue in words, whose first two bits are of no use.
+std::string dpx_of_10_bits() {
+  constexpr std::uint32_t columns = 8, rows = 4;
+  const std::string element = zeros(20) + "\x32\x02\x02\x0a\0\1\0\0"s + big(2048, 4) + zeros(40);
+  std::string file = dpx(columns, rows) + element;
+  file += zeros(2048 - file.size());
+  for (std::uint32_t i = 0; i < columns * rows; ++i)
+    file += big(0x12345678 + 1000000 * i, 4);
+  return file;
 }
 
 std::string tga(char kind, const std::string& data) {
@@ -120,7 +113,7 @@ std::vector<Claim> claims() {
                       big(8, 2) + big(3, 2) + zeros(14) + "abc"},
           {"sgi", big(474, 2) + "\0\1"s + big(3, 2) + big(width, 2) + big(height, 2) + big(3, 2) +
                       zeros(503)},
-          {"dpx", dpx()},
+          {"dpx", dpx(width, height) + zeros(2000)},
           {"fits", fits()},
           {"tif", tiff(1)},
           {"packed.tif", tiff(5)}};
@@ -141,6 +134,20 @@ TEST(ClaimedPixels, ThatAreBeyondAllNumbersAreRefused) {
   const TemporaryFolder folder;
   std::ofstream(folder / "a.ppm") << "P6\n99999999999 99999999999\n255\n";
   EXPECT_THROW(read_image(folder / "a.ppm"), DataError);
+}
+
+TEST(CutPicture, OfDpxIsRefusedWhereItsReaderWouldNotNotice) {
+  const TemporaryFolder folder;
+  const auto path = folder / "a.dpx";
+  const std::string whole = dpx_of_10_bits();
+  std::ofstream(path, std::ios::binary) << whole;
+  EXPECT_NO_THROW(read_image(path));
+  for (const std::size_t missing : {1, 4, 64, 128}) {
+    std::filesystem::resize_file(path, whole.size() - missing);
+    EXPECT_THAT([&] { read_image(path); },
+                ::testing::ThrowsMessage<DataError>(::testing::HasSubstr("the file is cut")))
+        << missing;
+  }
 }
 
 // Data of PNG files, strip by strip.

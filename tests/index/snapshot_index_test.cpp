@@ -130,6 +130,20 @@ TEST_F(Index, IsNotKeptWhereItsSnapshotIsWrittenAnewMeanwhile) {
   EXPECT_FALSE(std::filesystem::exists(path()));
 }
 
+TEST_F(Index, OfAFileThatHasTakenThePlaceOfTheOneThatIsOpenIsNotTaken) {
+  const auto held = write(long_row());
+  TestSnapshot moved = long_row();
+  for (double& x : moved.blocks[0].values[0])
+    x += 1e6;
+  write_gadget(folder_ / "other", moved, 2);
+  std::filesystem::rename(folder_ / "other", folder_ / "row");
+  const auto anew = open_snapshot(folder_ / "row");
+  SnapshotIndex::make(*anew, {}).write(anew->info());
+  EXPECT_TRUE(SnapshotIndex::read(anew->info()));
+  EXPECT_FALSE(SnapshotIndex::read(held->info()));
+  EXPECT_THROW(SnapshotIndex::make(*held, {}).write(held->info()), DataError);
+}
+
 TEST_F(Index, IsNotReadWhereItHasGrown) {
   const auto snapshot = write(long_row());
   SnapshotIndex::make(*snapshot, {}).write(snapshot->info());

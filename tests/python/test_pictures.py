@@ -4,6 +4,8 @@ import base64
 import os
 import subprocess
 import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -154,8 +156,8 @@ def test_a_folder_that_is_missing_is_an_oserror(renderer, particles, tmp_path):
         image.save(tmp_path / "missing" / "a.png")
 
 
-# A PNG file with a color profile that says it has a text of more bytes than are there, at which
-# OpenImageIO 2.4 crashes.
+# A PNG file that ends early, with a color profile that says it has a text of more bytes than are
+# there, at which OpenImageIO 2.4 crashes.
 DAMAGED_PROFILE = """
 iVBORw0KGgoAAAANSUhEUgAAAFAAAAA8CAIAAAB+RarbAAABdmlDQ1BJQ0MgUHJvZmlsZQAAeJx1kb1LQmEUhx+1KNJwqCHC4A4WDQpREI1lg4
 uEmEFWi16/Aj8u9yohrUFLg9AQtfQ19B/UGrQWBEERRDQ39rWE3M5VQQk9l/eeh997fodzzwV7KKfmjZ55yBdKeiQYUFZja0rfO07GsOHDE1cN
@@ -167,19 +169,19 @@ VoH7FNFP8AAA6bSURBVHicnZtJcyQ5coXfc0Rkkr1oTGaaq/7/79JVJ9n0TJEZAX86uDuAyGRV9XRUGg
 """
 
 
-@pytest.mark.parametrize(
-    "call",
-    [
-        "splotchcl.Image.open(path)",
-        "splotchcl.galaxy(path, path + '.hdf5')",
-        "splotchcl.reference(scene.copy(), few)",
-        "scene.decide(few)",
-        "splotchcl.movie(scene, path + '.mp4', device='reference')",
-        "splotchcl.reference(fading, few)",
-    ],
-)
-def test_a_picture_that_crashes_a_library_does_not_end_python(tmp_path, call):
-    path = tmp_path / "a.png"
+READERS = [
+    "splotchcl.Image.open(path)",
+    "splotchcl.galaxy(path, path + '.hdf5')",
+    "splotchcl.reference(scene.copy(), few)",
+    "scene.decide(few)",
+    "splotchcl.movie(scene, path + '.mp4', device='reference')",
+    "splotchcl.reference(fading, few)",
+]
+
+
+def error_of(call, folder, environment=None):
+    """What Python says of the damaged picture; it must not end otherwise."""
+    path = folder / "a.png"
     path.write_bytes(base64.b64decode(DAMAGED_PROFILE))
     script = f"""
 import splotchcl, sys
@@ -195,12 +197,38 @@ fading["finish.cross_fade.scene"] = path + ".toml"
 fading["finish.cross_fade.amount"] = 0.5
 try:
     {call}
-except splotchcl.Error as error:
-    sys.exit(3 if "crashed" in str(error) else str(error))
-sys.exit("no error")
+except splotchcl.DataError as error:
+    sys.exit(str(error))
 """
-    command = [sys.executable, "-c", script, str(path)]
-    assert subprocess.run(command, timeout=120, check=False).returncode == 3
+    ended = subprocess.run(
+        [sys.executable, "-c", script, str(path)],
+        env={**os.environ, **(environment or {})},
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert ended.returncode == 1, ended.stderr
+    return ended.stderr
+
+
+@pytest.mark.parametrize("call", READERS)
+def test_a_picture_with_a_damaged_color_profile_does_not_end_python(tmp_path, call):
+    assert "is damaged" in error_of(call, tmp_path)
+
+
+@pytest.mark.parametrize("call", READERS)
+def test_a_picture_that_crashes_a_library_does_not_end_python(tmp_path, call):
+    build = Path(os.environ.get("SPLOTCHCL_PROGRAM", "nowhere")).parent
+    crashing_calls = build / "tests" / "faults" / "libcrashing_calls.so"
+    if not crashing_calls.is_file():
+        pytest.skip("SPLOTCHCL_PROGRAM names no program with the tests' libraries beside it")
+    environment = {
+        "LD_PRELOAD": str(crashing_calls),
+        "SPLOTCHCL_CRASH": "png_create_read_struct",
+        "SPLOTCHCL_CRASH_IN": Path(sys.executable).name,
+    }
+    assert "crashed" in error_of(call, tmp_path, environment)
 
 
 def test_who_reads_a_picture_first_runs_no_code_of_the_current_folder(tmp_path):

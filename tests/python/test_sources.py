@@ -1,10 +1,13 @@
 """Types of particles and fields as mappings have keys, and identifiers that are exact."""
 
+import os
+import shutil
+
 import numpy as np
 import pytest
 
 from conftest import make_arrays
-from splotchcl import DataError, Particles, Snapshot, UsageError
+from splotchcl import DataError, Particles, Snapshot, UsageError, suggest
 
 
 def write_table(path, **columns):
@@ -17,6 +20,16 @@ def write_table(path, **columns):
         table[name] = values
     np.save(path, table)
     return path
+
+
+def test_a_name_that_is_not_utf8_is_read_or_named(universe, tmp_path):
+    name = os.fsdecode(os.path.join(os.fsencode(tmp_path), b"snapshot\xff"))
+    with pytest.raises(DataError, match="snapshot\\udcff: no such file"):
+        Snapshot(name)
+    shutil.copy(universe, name)
+    assert len(Snapshot(name)["gas"]["position"]) > 0
+    with pytest.raises(UsageError, match="is not UTF-8"):
+        suggest(name)
 
 
 def test_identifiers_of_a_file_are_exact(tmp_path):

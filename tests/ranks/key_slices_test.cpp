@@ -1,4 +1,4 @@
-#include "device/frame/key_slices.h"
+#include "device/walk/key_slices.h"
 
 #include <gtest/gtest.h>
 
@@ -114,6 +114,43 @@ TEST(KeySlices, LeaveOutWhatLiesInOthers) {
   EXPECT_EQ(slice_of({behind, 0}, &slices[1], 2), 2u);
   EXPECT_EQ(window_of(&slices[1], 2).first, slices[1].begin.key);
   EXPECT_EQ(window_of(&slices[1], 2).end, behind);
+}
+
+// One process that has not room for all splats draws slice by slice.
+TEST(KeySlices, OfOneProcessFillItsRoom) {
+  Splats splats;
+  for (std::uint64_t i = 0; i < 5000; ++i)
+    splats.places.push_back({i * 0x9e3779b97f4a7c15u >> 16, i % 10});
+  for (const std::uint64_t capacity : {5000u, 2500u, 700u, 100u}) {
+    const std::vector<KeySlice> slices = splats.cut(1, capacity);
+    expect_all_in_their_slices(splats, slices);
+    for (const KeySlice& slice : slices)
+      EXPECT_LE(slice.splats, capacity);
+    EXPECT_LE(slices.size(), 2 * splats.places.size() / capacity + 1);
+  }
+}
+
+TEST(KeySlices, HoldTheSmallestAndTheLargestKey) {
+  const Splats both = {{{0, 0}, {end_of_keys - 1, 9}}};
+  for (const std::uint64_t capacity : {1u, 2u})
+    expect_all_in_their_slices(both, both.cut(1, capacity));
+}
+
+// What each chunk of particles has of a slice: all splats of it, and none of another one.
+TEST(KeySlices, KnowTheKeysOfEachChunk) {
+  Splats splats;
+  for (std::size_t i = 0; i < 1000; ++i)
+    splats.places.push_back({76 + i % 3, i / 100});
+  const std::vector<KeySlice> slices = splats.cut(1, 150);
+  expect_all_in_their_slices(splats, slices);
+  EXPECT_GT(slices.size(), 3u) << "so that one key lies in several";
+  for (const SplatPlace& place : splats.places) {
+    for (std::size_t s = 0; s < slices.size(); ++s) {
+      const KeyWindow window = window_of_chunk(slices[s], place.chunk);
+      const bool is_within = place.key >= window.first && place.key < window.end;
+      EXPECT_EQ(is_within, s == slice_of(place, slices.data(), slices.size()));
+    }
+  }
 }
 
 }  // namespace

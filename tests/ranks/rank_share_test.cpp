@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "device/ranks/relay_bands.h"
-#include "device/ranks/slice_part.h"
+#include "device/walk/relay.h"
+#include "device/walk/key_slices.h"
 #include "reference/frames.h"
 
 namespace splotchcl::test {

@@ -1,6 +1,4 @@
 // Where clouds around the camera lie in an order that ranks have in slices.
-#include "device/ranks/slice_clouds.h"
-
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "device/stages/cloud_layers.h"
+#include "device/walk/key_slices.h"
 
 namespace splotchcl::test {
 namespace {
@@ -68,7 +67,7 @@ CloudLayers placed_by_slices(const std::vector<std::uint64_t>& keys, std::size_t
 TEST(LayersOfSlices, HaveThePlacesOfOneProcess) {
   const std::vector<std::uint64_t> keys = {5, 10, 11, 15, 16, 20, 30};
   CloudLayers alone = layers_of(keys);
-  alone.place_among({12, 10, 20, 22}, 0, end_of_keys);
+  alone.append_places(alone.places_among({12, 10, 20, 22}, 0, 0, keys.size()));
   CloudLayers sliced = placed_by_slices(keys, 4);
   while (const std::optional<CloudLayer> layer = alone.take_before(end_of_keys)) {
     const std::optional<CloudLayer> same = sliced.take_before(end_of_keys);

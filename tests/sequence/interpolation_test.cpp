@@ -58,6 +58,15 @@ TEST(LinearPositions, StayInABoxAroundTheOrigin) {
   EXPECT_THAT(values(between(first, second, 0.75), "position"), ElementsAre(-49, 0, 0));
 }
 
+// Codes put them back into the box only now and then, and sums are rounded.
+TEST(LinearPositions, AreWrappedWhereOneParticleHasJustLeftTheBox) {
+  const auto first =
+      MovingSnapshot(0).box(100).ids(0, {1, 2}).positions(0, {98, 0, 0, 100.5f, 0, 0}).make();
+  const auto second =
+      MovingSnapshot(1).box(100).ids(0, {1, 2}).positions(0, {2, 0, 0, 1, 0, 0}).make();
+  EXPECT_THAT(values(between(first, second, 0.75), "position"), ElementsAre(1, 0, 0, 0.875f, 0, 0));
+}
+
 TEST(LinearPositions, AreNotWrappedWhereParticlesLieOutsideOfTheBox) {
   const auto first = MovingSnapshot(0).box(10).ids(0, {1}).positions(0, {-40, 0, 0}).make();
   const auto second = MovingSnapshot(1).box(10).ids(0, {1}).positions(0, {40, 0, 0}).make();

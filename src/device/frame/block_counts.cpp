@@ -28,6 +28,13 @@ std::vector<std::uint32_t> first_slots(std::uint32_t blocks, std::uint32_t strid
   return first;
 }
 
+std::vector<std::uint32_t> first_splats(const std::vector<shared::BlockCounts>& blocks) {
+  std::vector<std::uint32_t> first = {0};
+  for (const shared::BlockCounts& block : blocks)
+    first.push_back(first.back() + block.visible);
+  return first;
+}
+
 std::vector<std::uint32_t> free_slots(const std::vector<shared::BlockCounts>& blocks,
                                       std::uint32_t stride, std::uint64_t wanted) {
   std::vector<std::uint32_t> slots;

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace splotchcl {
 
-// Where the splats of an ordered frame do not fit into memory together, they are drawn window by
-// window of their sort keys, nearest first (docs/large.md). Keys have 48 bits.
+// Where the splats of an ordered frame do not fit into memory together, they are drawn slice by
+// slice of their sort keys, nearest first (docs/large.md). Keys have 48 bits.
 constexpr int bits_of_key = 48;
 constexpr std::uint64_t end_of_keys = std::uint64_t{1} << bits_of_key;
 // The bits of a key that number its bin.
@@ -28,17 +26,5 @@ struct CountedKeys {
   int shift = shift_of_all_keys;
   std::vector<std::uint64_t> bins;
 };
-
-// Bin `bin` as a window of its own.
-KeyWindow window_of_bin(const CountedKeys& counted, std::size_t bin);
-
-// Counts the keys of a window in bins of 2^shift of them.
-using CountKeys = std::function<CountedKeys(const KeyWindow& window, int shift)>;
-
-// Windows one after the other, from the smallest key to the largest, none with more than
-// `capacity` splats unless they all have one key. `count` is called for bins that hold more than
-// that.
-std::vector<KeyWindow> choose_windows(const CountedKeys& counted, std::uint64_t capacity,
-                                      const CountKeys& count);
 
 }  // namespace splotchcl

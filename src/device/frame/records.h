@@ -29,6 +29,9 @@ struct SplatBlocks {
   // and per slot, which tiles these are.
   Buffer<std::uint32_t> tile_counts;
   Buffer<std::uint32_t> tiles;
+  // In the shape for GPUs, which bins them one by one: where they lie.
+  Buffer<std::uint32_t> order;
+  std::uint32_t visible = 0;
   std::uint32_t block_count = 0;
   std::uint32_t stride = 0;
   std::uint32_t left_out = 0;  // blocks out of view

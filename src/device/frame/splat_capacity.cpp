@@ -16,7 +16,7 @@ std::uint64_t splat_slots(const Frame& frame, const FramePlan& plan, const Devic
   std::uint64_t particles = 0;
   for (const DrawnComponent& component : frame.components) {
     const std::uint64_t count = component.particles.count, block = traits.project_block;
-    particles += traits.rows ? ceil_divide(count, block) * block : count;
+    particles += ceil_divide(count, block) * block;
   }
   return particles * static_cast<std::uint64_t>(plan.splats_per_particle);
 }
@@ -32,7 +32,7 @@ std::uint64_t splat_capacity(const FramePlan& plan, const Variant& variant,
   const std::uint64_t lists =
       traits.list_capacity * variant.tile_splat_bytes() + traits.sorted_chunk * (splat + place);
   // Of a chunk of particles, before they are put together (Projector::project_window).
-  const std::uint64_t apart = std::uint64_t{traits.rows ? traits.chunk_length() : 0} *
+  const std::uint64_t apart = std::uint64_t{traits.chunk_length()} *
                               static_cast<std::uint64_t>(plan.splats_per_particle) *
                               (splat + key + place);
   const std::uint64_t fixed = planes + lists + apart;

@@ -17,9 +17,8 @@ std::uint64_t splat_capacity(const FramePlan& plan, const Variant& variant,
                              const PictureLayout& layout, const DeviceTraits& traits,
                              std::uint64_t memory);
 
-// The slots of an ordered frame's splats, drawn in one piece: on a processor each block of
-// particles has room for the splats of all of its particles (Projector), on a GPU no more is known
-// beforehand than how many there are at most.
+// The slots of an ordered frame's splats, drawn in one piece: each block of particles has room for
+// the splats of all of its particles (Projector).
 std::uint64_t splat_slots(const Frame& frame, const FramePlan& plan, const DeviceTraits& traits);
 
 }  // namespace splotchcl

@@ -15,6 +15,11 @@ std::string define_if(bool condition, const std::string& name_and_value) {
   return condition ? define(name_and_value) : std::string();
 }
 
+// A constant that kernels ask for by `if`, or `#if` where something is declared.
+std::string flag(bool value, const std::string& name) {
+  return define(name + (value ? " 1" : " 0"));
+}
+
 std::string define(const std::string& name, std::uint64_t value) {
   return define(name + " " + std::to_string(value));
 }
@@ -31,35 +36,34 @@ std::string splats_of_block(const Variant& v) {
 }
 
 std::string wide_angle(const Variant& v) {
-  return define_if(is_wide_angle(v.projection), "WIDE_ANGLE") +
-         define_if(v.projection == Projection::fisheye, "PROJECTION_FISHEYE") +
-         define_if(v.projection == Projection::equirectangular, "PROJECTION_EQUIRECTANGULAR") +
-         define_if(v.copies, "COPIES") + define_if(v.ellipses, "ELLIPSES") +
-         define_if(v.face_of_cube, "FACE_OF_CUBE");
+  return flag(is_wide_angle(v.projection), "WIDE_ANGLE") +
+         flag(v.projection == Projection::fisheye, "PROJECTION_FISHEYE") +
+         flag(v.projection == Projection::equirectangular, "PROJECTION_EQUIRECTANGULAR") +
+         flag(v.copies, "COPIES") + flag(v.ellipses, "ELLIPSES") +
+         flag(v.face_of_cube, "FACE_OF_CUBE");
 }
 
 std::string numbers(const Variant& v) {
-  return define_if(v.rows, "LANES_8") + define_if(v.extended, "EXTENDED_NUMBERS") +
-         define_if(v.double_numbers, "DOUBLE_NUMBERS") +
-         define_if(v.full_precision, "FULL_PRECISION") + splats_of_block(v);
+  return define_if(v.rows, "LANES_8") + flag(v.extended, "EXTENDED_NUMBERS") +
+         flag(v.double_numbers, "DOUBLE_NUMBERS") + flag(v.full_precision, "FULL_PRECISION") +
+         splats_of_block(v);
 }
 
 std::string layout(const Variant& v) {
-  return define_if(v.vector_colors, "VECTOR_COLORS") + define_if(v.fine_places, "FINE_PLACES") +
-         define_if(v.has_whole_sectors(), "WHOLE_SECTORS") +
-         define_if(v.has_own_tiles(), "TILES_IN_SPLAT") + define("TILE_WIDTH", v.tile_width) +
-         define("TILE_HEIGHT", v.tile_height) + define("PLANES", v.planes()) +
-         define("SUMMED", v.sums) + define("EIGHTS_OF_ITEM", v.eights_of_item()) +
+  return flag(v.vector_colors, "VECTOR_COLORS") + flag(v.fine_places, "FINE_PLACES") +
+         flag(v.has_whole_sectors(), "WHOLE_SECTORS") + flag(v.has_own_tiles(), "TILES_IN_SPLAT") +
+         define("TILE_WIDTH", v.tile_width) + define("TILE_HEIGHT", v.tile_height) +
+         define("PLANES", v.planes()) + define("SUMMED", v.sums) +
+         define("EIGHTS_OF_ITEM", v.eights_of_item()) +
          define("PIXELS_BEHIND", static_cast<std::uint64_t>(v.pixels_behind()));
 }
 
 std::string light(const Variant& v) {
-  return define_if(v.is_ordered(), "LIGHT_ORDERED") +
-         define_if(v.light == LightPlan::emission, "LIGHT_EMISSION") +
-         define_if(v.keeps_transmittance, "KEEP_TRANSMITTANCE") +
-         define_if(v.kernel_cut, "KERNEL_CUT") + define_if(v.pixel_means, "SAMPLING_MEAN") +
-         define_if(v.stencils, "STENCILS 1") + define_if(v.clouds_around, "CLOUDS_AROUND") +
-         define_if(v.background_image, "BACKGROUND_IMAGE");
+  return flag(v.is_ordered(), "LIGHT_ORDERED") +
+         flag(v.light == LightPlan::emission, "LIGHT_EMISSION") +
+         flag(v.keeps_transmittance, "KEEP_TRANSMITTANCE") + flag(v.kernel_cut, "KERNEL_CUT") +
+         flag(v.pixel_means, "SAMPLING_MEAN") + flag(v.stencils, "STENCILS") +
+         flag(v.clouds_around, "CLOUDS_AROUND") + flag(v.background_image, "BACKGROUND_IMAGE");
 }
 
 std::string defines_of(const Choices& choices) {

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <utility>
 
+#include "scene/word_hash.h"
+
 #if defined(__unix__) || defined(__APPLE__)
 #include <sys/stat.h>
 #include <unistd.h>
@@ -23,33 +25,26 @@ namespace {
 
 // What a file holds: this line, how many bytes the binary has, a checksum of key and binary,
 // the key, its end, the binary.
-constexpr char first_line[] = "splotchcl kernels 2\n";
+constexpr char first_line[] = "splotchcl kernels 3\n";
 constexpr char end_of_key = '\0';
 
-// FNV-1a: it only has to spread names.
-std::uint64_t hash_of(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char letter : text) {
-    hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
-  }
-  return hash;
+std::uint64_t hash_of(const std::string& key) {
+  WordHash hash;
+  hash.add(key);
+  return hash.value();
 }
 
-// FNV-1a on words of eight bytes. Each step can be undone, so every change of one word shows;
-// others go unseen once in 2^64.
-std::uint64_t checksum_of(const std::string& text, std::uint64_t hash) {
-  for (std::size_t i = 0; i < text.size(); i += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, text.data() + i, std::min(sizeof(word), text.size() - i));
-    hash = (hash ^ word) * 1099511628211ULL;
-  }
-  return hash ^ text.size();
+std::uint64_t checksum_of(const std::string& key, const std::string& binary) {
+  WordHash hash;
+  hash.add(key);
+  hash.add(std::uint64_t{binary.size()});
+  hash.add(checksum(reinterpret_cast<const std::byte*>(binary.data()), binary.size()));
+  return hash.value();
 }
 
 std::string head_of(const std::string& key, const std::string& binary) {
   std::ostringstream head;
-  head << first_line << binary.size() << ' ' << std::hex
-       << checksum_of(binary, checksum_of(key, 14695981039346656037ULL)) << '\n'
+  head << first_line << binary.size() << ' ' << std::hex << checksum_of(key, binary) << '\n'
        << key << end_of_key;
   return head.str();
 }

@@ -60,21 +60,30 @@ class Flattener {
       add_file(std::string(line.substr(0, line.find('"'))));
       return;
     }
+    // Each file is put in once, and is all one file then.
+    if (starts_with(line, "#pragma once")) return;
     if (starts_with(line, "#")) follow(line);
     text_ += line;
   }
 
   void follow(std::string_view line) {
-    const std::string asked(line.substr(std::min(line.find(' '), line.size())));
+    const std::string_view asked = line.substr(std::min(line.find(' '), line.size()));
     if (starts_with(line, "#if")) {
-      conditions_.push_back({asked, !starts_with(line, "#ifndef")});
+      conditions_.push_back(condition_of(asked, starts_with(line, "#ifndef")));
     } else if (starts_with(line, "#elif")) {
-      conditions_.back() = {conditions_.back().asked + asked, true};
+      conditions_.back() = {conditions_.back().asked + std::string(asked), true};
     } else if (starts_with(line, "#else")) {
       conditions_.back().holds = !conditions_.back().holds;
     } else if (starts_with(line, "#endif")) {
       conditions_.pop_back();
     }
+  }
+
+  // `#if !NAME` asks for the same as `#if NAME`, of one name.
+  static Condition condition_of(std::string_view asked, bool is_negative) {
+    const bool is_of_one = asked.find("&&") == asked.npos && asked.find("||") == asked.npos;
+    if (!starts_with(asked, " !") || !is_of_one) return {std::string(asked), !is_negative};
+    return {" " + std::string(asked.substr(2)), is_negative};
   }
 
   bool is_known(const std::string& file) {

@@ -19,11 +19,13 @@ fs::path from_environment(const char* name) {
   return value == nullptr ? fs::path() : fs::path(value);
 }
 
-// A folder that is missing is made, as PoCL does it.
+// A folder that is missing is made, as PoCL does it. What access() says is not enough: root may
+// write to /proc by it.
 bool can_be_written(const fs::path& folder) {
   std::error_code ignored;
   fs::create_directories(folder, ignored);
-  return fs::is_directory(folder, ignored) && ::access(folder.c_str(), W_OK | X_OK) == 0;
+  std::string tried = (folder / "splotchcl-XXXXXX").string();
+  return ::mkdtemp(tried.data()) != nullptr && ::rmdir(tried.c_str()) == 0;
 }
 
 // Where PoCL's folder lies; empty where it takes one among temporary files, under a name that
@@ -65,6 +67,7 @@ std::string unwritable_pocl_cache() {
 
 void give_pocl_a_cache() {
   if (!from_environment(variable).empty()) return;
+  ::unsetenv(variable);  // an empty one, with which PoCL ends the program
   if (!may_be_of_others(folder_above()) && unwritable_pocl_cache().empty()) return;
   std::error_code error;
   const fs::path folder =

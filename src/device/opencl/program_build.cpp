@@ -1,7 +1,9 @@
 #include "device/opencl/program_build.h"
 
+#include <string>
 #include <vector>
 
+#include "device/opencl/pocl_cache.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -12,11 +14,14 @@ compute::program build_program(const compute::context& context, const ProgramTex
   try {
     program.build(text.options);
   } catch (const compute::opencl_error& error) {
+    const std::string cache = unwritable_pocl_cache();
+    const std::string hint =
+        cache.empty() ? "see that there is memory and room in the folder for temporary files, or "
+                        "choose another device: "
+                      : "PoCL cannot write to its cache folder, " + cache +
+                            ": set POCL_CACHE_DIR to one that can be written to: ";
     throw DeviceError("device " + context.get_device().name() + " cannot compile " + names + ": " +
-                      error.error_string() +
-                      "; see that there is memory and room in the folder for temporary files, or "
-                      "choose another device: " +
-                      program.build_log());
+                      error.error_string() + "; " + hint + program.build_log());
   }
   return program;
 }

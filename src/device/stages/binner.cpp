@@ -63,6 +63,8 @@ CountedSplats Binner::count(SplatBlocks& blocks) const {
   counted.parameters.block_count = blocks.block_count;
   counted.blocks = &blocks.counts;
   if (groups_) {
+    counted.parameters.end = blocks.visible;
+    counted.order = &blocks.order;
     groups_->count(counted);
   } else {
     counted.in_order = context_.device.pool.get<std::byte>(0, "unused");

@@ -16,11 +16,11 @@ namespace splotchcl {
 struct CountedSplats {
   shared::BinParameters parameters{};
   const SplatMemory* splats = nullptr;
-  const Buffer<std::uint32_t>* order = nullptr;         // of sorted splats
+  const Buffer<std::uint32_t>* order = nullptr;         // of sorted splats; for GPUs of all
   const Buffer<shared::BlockCounts>* blocks = nullptr;  // of a projection's
   Buffer<std::byte> in_order;                           // copies of sorted splats
   Buffer<std::uint32_t> tiles;                          // per splat (tiles.cl)
-  Buffer<shared::SplatTiles> tiles_of_slots;            // the same in the shape for GPUs
+  Buffer<shared::SplatTiles> tiles_of_splats;           // the same in the shape for GPUs
   Buffer<std::uint32_t> tile_counts;                    // per block and tile; in that, per tile
   Buffer<std::uint32_t> tile_lengths;                   // not in that
   std::vector<std::uint32_t> lengths;                   // the same on the host

@@ -4,24 +4,6 @@
 
 namespace splotchcl {
 
-std::size_t CloudLayers::end_of_open(std::uint64_t end) const {
-  const auto open_end = std::lower_bound(
-      clouds_.begin() + static_cast<std::ptrdiff_t>(splats_before_.size()), clouds_.end(), end,
-      [](const CloudAround& cloud, std::uint64_t key) { return cloud.key < key; });
-  return static_cast<std::size_t>(open_end - clouds_.begin());
-}
-
-std::optional<std::uint64_t> CloudLayers::last_open_before(std::uint64_t end) const {
-  const std::size_t open_end = end_of_open(end);
-  if (open_end == splats_before_.size()) return std::nullopt;
-  return clouds_[open_end - 1].key;
-}
-
-void CloudLayers::place_among(const std::vector<std::uint64_t>& keys, std::uint64_t first,
-                              std::uint64_t end) {
-  append_places(places_among(keys, first, splats_before_.size(), end_of_open(end)));
-}
-
 std::vector<std::uint64_t> CloudLayers::places_among(const std::vector<std::uint64_t>& keys,
                                                      std::uint64_t first, std::size_t begin_cloud,
                                                      std::size_t end_cloud) const {

@@ -16,7 +16,7 @@ struct CloudLayer {
 };
 
 // Clouds around the camera among the sorted splats of an ordered frame, of which keys are told
-// window by window (KeyWindow), nearest first. Of equal keys clouds lie behind splats.
+// slice by slice (KeySlice), nearest first. Of equal keys clouds lie behind splats.
 class CloudLayers {
  public:
   CloudLayers() = default;
@@ -24,14 +24,8 @@ class CloudLayers {
   explicit CloudLayers(std::vector<CloudAround> clouds) : clouds_(std::move(clouds)) {}
 
   const std::vector<CloudAround>& clouds() const { return clouds_; }
-  // The largest key below `end` of those whose place is open.
-  std::optional<std::uint64_t> last_open_before(std::uint64_t end) const;
-  // The keys of splats that are not above that, the nearest of which is number `first` of the
-  // order: all other such splats are before them.
-  void place_among(const std::vector<std::uint64_t>& keys, std::uint64_t first, std::uint64_t end);
-  // Several ranks: how many splats lie before each of clouds [begin, end), told those keys, not
-  // above the last of these clouds', of the splats of a slice that has these clouds and that begins
-  // with splat number `first`.
+  // How many splats lie before each of clouds [begin, end). Told are the keys of a slice's splats
+  // that are not above the last of these clouds' keys; the slice begins with splat number `first`.
   std::vector<std::uint64_t> places_among(const std::vector<std::uint64_t>& keys,
                                           std::uint64_t first, std::size_t begin,
                                           std::size_t end) const;
@@ -44,9 +38,6 @@ class CloudLayers {
   std::optional<CloudLayer> take_before(std::uint64_t end);
 
  private:
-  // The first cloud from the open ones on whose key is not below `end`.
-  std::size_t end_of_open(std::uint64_t end) const;
-
   std::vector<CloudAround> clouds_;
   std::vector<std::uint64_t> splats_before_;  // of those that have a place
   std::size_t taken_ = 0;

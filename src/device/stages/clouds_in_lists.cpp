@@ -191,17 +191,6 @@ CloudsInLists::CloudsInLists(const StageContext& context, const std::vector<Clou
   fill_directions(context, tables_);
 }
 
-std::uint32_t CloudsInLists::open_before(std::uint64_t end) const {
-  const auto first = keys_.begin() + static_cast<std::ptrdiff_t>(appended_);
-  return static_cast<std::uint32_t>(std::lower_bound(first, keys_.end(), end) - first);
-}
-
-void CloudsInLists::append_before(std::uint64_t end, KeyedSplats& keyed) {
-  const std::size_t first = appended_;
-  appended_ += open_before(end);
-  append(first, appended_, keyed);
-}
-
 void CloudsInLists::append(std::size_t begin, std::size_t end, KeyedSplats& keyed) const {
   if (begin == end) return;
   const Variant& variant = context_->variant;

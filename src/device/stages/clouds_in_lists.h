@@ -25,18 +25,14 @@ class CloudsInLists {
 
   std::size_t count() const { return keys_.size(); }
   const std::vector<std::uint64_t>& keys() const { return keys_; }
-  // How many are still to be put among splats with keys below `end`.
-  std::uint32_t open_before(std::uint64_t end) const;
-  // Puts those behind the splats, which have room for them.
-  void append_before(std::uint64_t end, KeyedSplats& keyed);
-  // The same of clouds [begin, end), wherever they lie in the order.
+  // Puts clouds [begin, end) behind the splats, which have room for them, wherever they lie in the
+  // order.
   void append(std::size_t begin, std::size_t end, KeyedSplats& keyed) const;
   const CloudTables& tables() const { return tables_; }
 
  private:
   const StageContext* context_ = nullptr;
   std::vector<std::uint64_t> keys_;
-  std::size_t appended_ = 0;
   CloudTables tables_;
 };
 

@@ -12,7 +12,7 @@
 namespace splotchcl {
 namespace {
 
-std::uint32_t slots_of(const shared::BinParameters& parameters) {
+std::uint32_t splats_of(const shared::BinParameters& parameters) {
   return parameters.end - parameters.first;
 }
 
@@ -65,10 +65,14 @@ GroupBinner::GroupBinner(const StageContext& context)
 void GroupBinner::count(CountedSplats& counted) const {
   DeviceContext& device = context_.device;
   const shared::GroupBinParameters parameters = {counted.parameters, 0};
-  const std::uint32_t slots = slots_of(counted.parameters);
+  const std::uint32_t splats = splats_of(counted.parameters);
+  if (splats == 0) {
+    counted.lengths.assign(counted.parameters.tile_count, 0);
+    return;
+  }
   const std::uint64_t counters = 2 * std::uint64_t{counted.parameters.tile_count};
   const std::uint64_t in_copies = COPIES_OF_COUNTS * counters;
-  counted.tiles_of_slots = device.pool.get<shared::SplatTiles>(slots, "tiles of splats");
+  counted.tiles_of_splats = device.pool.get<shared::SplatTiles>(splats, "tiles of splats");
   counted.tile_counts = device.pool.get<std::uint32_t>(in_copies, "tile counts");
   clear_memory(device, "bin", counted.tile_counts.memory(), 0, in_copies * sizeof(std::uint32_t));
   Launch(device, "bin", program_.create_kernel("bin_find_tiles"))
@@ -76,10 +80,9 @@ void GroupBinner::count(CountedSplats& counted) const {
       .arg(context_.grids)
       .arg(counted.splats->splats)
       .arg(*counted.order)
-      .arg(*counted.blocks)
-      .arg(counted.tiles_of_slots)
+      .arg(counted.tiles_of_splats)
       .arg(counted.tile_counts)
-      .run_groups(ceil_divide(slots, GROUP_ITEMS), GROUP_ITEMS);
+      .run_groups(ceil_divide(splats, GROUP_ITEMS), GROUP_ITEMS);
   Launch(device, "bin", program_.create_kernel("bin_add_counts"))
       .value(parameters)
       .arg(counted.tile_counts)
@@ -88,20 +91,19 @@ void GroupBinner::count(CountedSplats& counted) const {
       lengths_of_lists(device.pool.download(counted.tile_counts, counters), context_.layout);
 }
 
-// Where the entries of each slot begin.
+// Where the entries of each splat begin.
 Buffer<std::uint32_t> GroupBinner::find_entries(
     const CountedSplats& counted, const shared::GroupBinParameters& parameters) const {
   DeviceContext& device = context_.device;
-  const std::uint32_t slots = slots_of(parameters.bin);
+  const std::uint32_t splats = splats_of(parameters.bin);
   Buffer<std::uint32_t> first_entries =
-      device.pool.get<std::uint32_t>(std::uint64_t{slots} + 1, "first entries");
+      device.pool.get<std::uint32_t>(std::uint64_t{splats} + 1, "first entries");
   Launch(device, "bin", program_.create_kernel("bin_count_entries"))
       .value(parameters)
-      .arg(*counted.blocks)
-      .arg(counted.tiles_of_slots)
+      .arg(counted.tiles_of_splats)
       .arg(first_entries)
-      .run_groups(ceil_divide(slots, GROUP_ITEMS), GROUP_ITEMS);
-  scan_.scan("bin", first_entries, slots);
+      .run_groups(ceil_divide(splats, GROUP_ITEMS), GROUP_ITEMS);
+  scan_.scan("bin", first_entries, splats);
   return first_entries;
 }
 
@@ -115,7 +117,7 @@ KeyedValues GroupBinner::emit(const CountedSplats& counted,
   Launch(device, "bin", program_.create_kernel("bin_emit"))
       .value(parameters)
       .arg(*counted.order)
-      .arg(counted.tiles_of_slots)
+      .arg(counted.tiles_of_splats)
       .arg(first_entries)
       .arg(pairs.keys)
       .arg(pairs.values)

@@ -124,7 +124,8 @@ Buffer<std::uint32_t> GroupSorter::sort(Buffer<std::uint32_t> keys, Buffer<std::
 
 // Keys of 48 bits: their upper bits that are 0 above the smallest make room for ends.
 std::uint32_t GroupSorter::join_ends(const Buffer<std::uint32_t>& keys,
-                                     const Buffer<std::uint16_t>& ends, std::uint32_t count,
+                                     const Buffer<std::uint16_t>& ends,
+                                     const Buffer<std::uint32_t>& values, std::uint32_t count,
                                      std::uint32_t& bits) const {
   const shared::KeyRange range = find_range(keys, count);
   const std::uint32_t upper_bits = bits_of(range.largest - range.smallest);
@@ -135,6 +136,7 @@ std::uint32_t GroupSorter::join_ends(const Buffer<std::uint32_t>& keys,
   Launch(device_, "sort", program_.create_kernel("sort_join_ends"))
       .value(parameters)
       .arg(ends)
+      .arg(values)
       .arg(keys)
       .run_groups(ceil_divide(count, GROUP_ITEMS), GROUP_ITEMS);
   return parameters.shift;
@@ -145,7 +147,7 @@ Buffer<std::uint32_t> GroupSorter::sort(Buffer<std::uint32_t> keys,
                                         Buffer<std::uint32_t> values, std::uint32_t count) const {
   if (count < 2) return values;
   std::uint32_t bits = 0;
-  const std::uint32_t bits_of_ends = join_ends(keys, ends, count, bits);
+  const std::uint32_t bits_of_ends = join_ends(keys, ends, values, count, bits);
   const DigitPlan plan = digits_of_bits(bits);
   KeyedValues sorted = sort("sort", {std::move(keys), std::move(values)}, count, plan);
   // Hardly any keys agree in the bits that were sorted by, and seldom more than a few.

@@ -60,7 +60,8 @@ class GroupSorter {
   shared::KeyRange find_range(const Buffer<std::uint32_t>& keys, std::uint32_t count) const;
   // How many bits of the ends are in the keys then, of which those in use are returned.
   std::uint32_t join_ends(const Buffer<std::uint32_t>& keys, const Buffer<std::uint16_t>& ends,
-                          std::uint32_t count, std::uint32_t& bits) const;
+                          const Buffer<std::uint32_t>& values, std::uint32_t count,
+                          std::uint32_t& bits) const;
   bool sort_short_runs(const KeyedValues& pairs, const Buffer<std::uint16_t>& ends,
                        std::uint32_t count) const;
   KeyedValues order_by_ends(const KeyedValues& pairs, const Buffer<std::uint16_t>& ends,

@@ -6,6 +6,7 @@
 
 #include "device/frame/column_arguments.h"
 #include "device/frame/float_pair.h"
+#include "device/frame/key_windows.h"
 #include "device/stages/field_scaling.h"
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
@@ -262,6 +263,7 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   p.component = component;
   p.sort_by_field = frame.sort.by == SortOrder::By::field;
   p.sort_descending = frame.sort.descending;
+  p.window_end = wide(end_of_keys);
   return p;
 }
 

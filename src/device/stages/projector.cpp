@@ -6,8 +6,6 @@
 #include "device/frame/block_counts.h"
 #include "device/frame/column_arguments.h"
 #include "device/frame/view_bounds.h"
-#include "device/opencl/launch.h"
-#include "device/stages/clear_memory.h"
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
 #include "device/stages/projector_targets.h"
@@ -19,13 +17,6 @@ namespace splotchcl {
 namespace {
 
 static_assert(width_octaves == WIDTH_OCTAVES);
-
-// Of all groups, added up on the device.
-Buffer<shared::BlockCounts> no_counts(DeviceContext& device) {
-  Buffer<shared::BlockCounts> counts = device.pool.get<shared::BlockCounts>(1, "counts of splats");
-  clear_memory(device, "project", counts.memory(), 0, sizeof(shared::BlockCounts));
-  return counts;
-}
 
 std::uint32_t count_left_out(const std::vector<std::uint32_t>& blocks) {
   return static_cast<std::uint32_t>(
@@ -53,21 +44,13 @@ Projector::Projector(const StageContext& context)
       width_needs_(upload_needs()),
       unused_(context.device.pool.get<std::uint32_t>(0, "unused")),
       unused_ends_(context.device.pool.get<std::uint16_t>(0, "unused")) {
+  if (!has_rows()) check_blocks_of_groups(context.device.traits);
   // Asked for, so that they are compiled with those of other stages.
   ProgramCache& programs = context.device.programs;
-  const bool rows = context.device.traits.rows;
-  if (!rows) {
-    check_blocks_of_groups(context.device.traits);
-    scan_.emplace(context.device);
-    programs.get(project_program(context.variant, ProjectOutput::counts));
-  } else if (context.plan.needs_sort()) {
-    programs.get(program_source("kernels/project/compact.cl"));
-  }
-  if (context.plan.needs_sort()) {
-    programs.get(project_program(context.variant, ProjectOutput::splats_and_keys));
-  } else {
-    programs.get(project_program(context.variant, ProjectOutput::splats));
-  }
+  const bool sorts = context.plan.needs_sort();
+  if (sorts || !has_rows()) programs.get(program_source("kernels/project/compact.cl"));
+  programs.get(project_program(context.variant,
+                               sorts ? ProjectOutput::splats_and_keys : ProjectOutput::splats));
 }
 
 Buffer<shared::WidthNeeds> Projector::upload_needs() const {
@@ -124,7 +107,6 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
       .arg(targets.splats.splats)
       .arg(targets.keys)
       .arg(targets.key_ends)
-      .arg(targets.order)
       .arg(width_needs_)
       .arg(left_out_buffer)
       .arg(context_.colors.components)
@@ -138,62 +120,61 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters parameter
   launch.arg(context_.grids)
       .arg(targets.blocks ? targets.blocks->tile_counts : unused_)
       .arg(targets.blocks ? targets.blocks->tiles : unused_);
-  if (scan_) {
-    launch.run_groups(block_count(parameters), GROUP_ITEMS);
-  } else {
+  if (has_rows()) {
     launch.run_pieces(block_count(parameters));
+  } else {
+    launch.run_groups(block_count(parameters), GROUP_ITEMS);
   }
 }
 
+// A group for each block, to which one item of a processor is enough.
+void Projector::run_by_blocks(Launch& launch, std::size_t blocks) const {
+  launch.run_groups(blocks, has_rows() ? 1 : GROUP_ITEMS);
+}
+
+std::uint32_t Projector::stride_of(const shared::ProjectParameters& parameters) const {
+  return parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+}
+
 SplatBlocks Projector::project(const ParticleChunk& chunk, const ParticleBuffers& particles) const {
-  return scan_ ? project_in_groups(chunk, particles) : project_in_blocks(chunk, particles);
-}
-
-// One block of all the chunk's splats, without gaps.
-SplatBlocks Projector::project_in_groups(const ParticleChunk& chunk,
-                                         const ParticleBuffers& particles) const {
-  BufferPool& pool = context_.device.pool;
-  const shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
-  const std::uint32_t groups = block_count(parameters);
-  SplatBlocks blocks;
-  blocks.block_count = 1;
-  blocks.stride = chunk.count() * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
-  blocks.counts = no_counts(context_.device);
-  blocks.splats = splat_memory(blocks.stride);
-  const auto offsets = pool.get<std::uint32_t>(std::uint64_t{groups} + 1, "group offsets");
-  const Targets targets = {offsets, blocks.counts, blocks.splats, unused_, unused_ends_, unused_};
-  const std::vector<std::uint32_t> left_out = left_out_blocks(parameters, particles);
-  blocks.left_out = count_left_out(left_out);
-  launch(ProjectOutput::counts, parameters, particles, left_out, targets);
-  scan_->scan("project", offsets, groups);
-  launch(ProjectOutput::splats, parameters, particles, left_out, targets);
-  return blocks;
-}
-
-SplatBlocks Projector::project_in_blocks(const ParticleChunk& chunk,
-                                         const ParticleBuffers& particles) const {
   BufferPool& pool = context_.device.pool;
   const shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
   SplatBlocks blocks;
-  blocks.stride =
-      parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+  blocks.stride = stride_of(parameters);
   blocks.block_count = block_count(parameters);
   blocks.counts = pool.get<shared::BlockCounts>(blocks.block_count, "block counts");
   const std::uint64_t slots = std::uint64_t{blocks.block_count} * blocks.stride;
   blocks.splats = splat_memory(slots);
-  blocks.tiles =
-      pool.get<std::uint32_t>(context_.variant.has_own_tiles() ? 0 : slots, "tiles of splats");
+  const bool lists_tiles = has_rows() && !context_.variant.has_own_tiles();
+  blocks.tiles = pool.get<std::uint32_t>(lists_tiles ? slots : 0, "tiles of splats");
   blocks.tile_counts = pool.get<std::uint32_t>(
-      std::uint64_t{blocks.block_count} * parameters.tile_count, "tile counts");
-  std::vector<std::uint32_t> offsets(blocks.block_count);
-  for (std::uint32_t b = 0; b < blocks.block_count; ++b)
-    offsets[b] = b * blocks.stride;
+      has_rows() ? std::uint64_t{blocks.block_count} * parameters.tile_count : 0, "tile counts");
   const std::vector<std::uint32_t> left_out = left_out_blocks(parameters, particles);
   blocks.left_out = count_left_out(left_out);
   launch(ProjectOutput::splats, parameters, particles, left_out,
-         {pool.upload(offsets, "block offsets"), blocks.counts, blocks.splats, unused_,
-          unused_ends_, unused_, &blocks});
+         {pool.upload(first_slots(blocks.block_count, blocks.stride), "block offsets"),
+          blocks.counts, blocks.splats, unused_, unused_ends_, &blocks});
+  if (!has_rows()) list_slots(blocks);
   return blocks;
+}
+
+void Projector::list_slots(SplatBlocks& blocks) const {
+  BufferPool& pool = context_.device.pool;
+  const std::vector<std::uint32_t> first =
+      first_splats(pool.download(blocks.counts, blocks.block_count));
+  blocks.visible = first.back();
+  blocks.order = pool.get<std::uint32_t>(blocks.visible, "slots of splats");
+  Launch launch(context_.device, "project",
+                context_.device.programs.get(program_source("kernels/project/compact.cl"))
+                    .create_kernel("list_slots"));
+  launch.value(blocks.stride)
+      .value(cl_uint{0})
+      .arg(blocks.counts)
+      .arg(pool.upload(first, "block offsets"))
+      .arg(unused_)
+      .arg(unused_)
+      .arg(blocks.order);
+  run_by_blocks(launch, blocks.block_count);
 }
 
 ParticleCounts Projector::count(const SplatBlocks& blocks, const ParticleChunk& chunk) const {
@@ -201,13 +182,11 @@ ParticleCounts Projector::count(const SplatBlocks& blocks, const ParticleChunk& 
       context_.device.pool.download(blocks.counts, blocks.block_count);
   ParticleCounts sum = sum_of(found);
   if (sum.around == 0) return sum;
-  sum.chunks_around =
-      scan_ ? all_blocks({chunk}, context_.device.traits)
-            : std::vector{ChunkBlocks{chunk, blocks_around(found.data(), found.size())}};
+  sum.chunks_around = {ChunkBlocks{chunk, blocks_around(found.data(), found.size())}};
   return sum;
 }
 
-KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles) const {
+Projector::AllParticles Projector::all_of(const std::vector<ParticleBuffers>& particles) const {
   AllParticles all;
   for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
     const std::size_t count = context_.frame.components[c].particles.count;
@@ -217,39 +196,7 @@ KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles
     all.left_out.push_back(left_out_blocks(all.components.back(), particles[c]));
     all.blocks_left_out += count_left_out(all.left_out.back());
   }
-  if (all.blocks == 0) return {};
-  KeyedSplats keyed =
-      scan_ ? project_all_in_groups(all, particles) : project_all_in_blocks(all, particles);
-  keyed.left_out = all.blocks_left_out;
-  return keyed;
-}
-
-void Projector::launch_all(ProjectOutput output, const AllParticles& all,
-                           const std::vector<ParticleBuffers>& particles,
-                           const Targets& targets) const {
-  for (std::size_t c = 0; c < all.components.size(); ++c)
-    launch(output, all.components[c], particles[c], all.left_out[c], targets);
-}
-
-KeyedSplats Projector::project_all_in_groups(const AllParticles& all,
-                                             const std::vector<ParticleBuffers>& particles) const {
-  const auto counts = counts_of(all.blocks);
-  const auto offsets = context_.device.pool.get<std::uint32_t>(all.blocks + 1, "block offsets");
-  launch_all(ProjectOutput::counts, all, particles,
-             {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
-  scan_counts(all.blocks, counts, offsets);
-  const ParticleCounts found = download_counts(counts, all.blocks);
-  // With room for clouds around the camera.
-  KeyedSplats keyed = keyed_memory(static_cast<std::uint32_t>(found.visible + found.around));
-  keyed.count = static_cast<std::uint32_t>(found.visible);
-  keyed.particles = found;
-  if (found.around > 0) {
-    const DeviceTraits& traits = context_.device.traits;
-    keyed.particles.chunks_around = all_blocks(particle_chunks(context_.frame, traits), traits);
-  }
-  launch_all(ProjectOutput::splats_and_keys, all, particles,
-             {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
-  return keyed;
+  return all;
 }
 
 // In the chunks that particles are listed in.
@@ -273,37 +220,40 @@ Filling Projector::filling_of_slots() const {
   return context_.plan.visible_part >= mostly ? Filling::whole : Filling::in_parts;
 }
 
-// Each block's splats lie where there is room for all its particles, so that these are projected
-// once: how many come before is known afterwards, and only keys are moved. A processor has no
-// memory for slots that nothing is written to, where these are many.
-KeyedSplats Projector::project_all_in_blocks(const AllParticles& all,
-                                             const std::vector<ParticleBuffers>& particles) const {
+// Only keys are moved. A processor has no memory for slots that nothing is written to, where these
+// are many.
+KeyedSplats Projector::project_all(const std::vector<ParticleBuffers>& particles) const {
+  const AllParticles all = all_of(particles);
+  if (all.blocks == 0) return {};
   const Filling filling = filling_of_slots();
   BufferPool& pool = context_.device.pool;
-  const std::uint32_t stride = all.components.front().block_particles *
-                               static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+  const std::uint32_t stride = stride_of(all.components.front());
   const std::uint32_t slots = all.blocks * stride;
-  const auto counts = counts_of(all.blocks);
+  const auto counts = pool.get<shared::BlockCounts>(all.blocks, "block counts");
   const auto keys = pool.get<std::uint32_t>(slots, "sort keys of blocks", filling);
   const auto offsets = pool.upload(first_slots(all.blocks, stride), "block offsets");
   KeyedSplats keyed;
   keyed.splats = splat_memory(slots, filling);
   keyed.key_ends = key_ends(slots, filling);
-  launch_all(ProjectOutput::splats_and_keys, all, particles,
-             {offsets, counts, keyed.splats, keys, keyed.key_ends, unused_});
+  for (std::size_t c = 0; c < all.components.size(); ++c) {
+    launch(ProjectOutput::splats_and_keys, all.components[c], particles[c], all.left_out[c],
+           {offsets, counts, keyed.splats, keys, keyed.key_ends});
+  }
   const std::vector<shared::BlockCounts> found = pool.download(counts, all.blocks);
   keyed.particles = sum_of(found);
   keyed.count = static_cast<std::uint32_t>(keyed.particles.visible);
+  keyed.left_out = all.blocks_left_out;
   keyed.free_slots = free_slots(found, stride, keyed.particles.around);
   if (keyed.particles.around > 0) keyed.particles.chunks_around = chunks_around(all, found);
-  put_keys_together(keys, counts, all.blocks, stride, keyed);
+  put_keys_together(keys, counts, found, stride, keyed);
   return keyed;
 }
 
 // Of keys that lie block by block, those of splats, and where these lie; with room for clouds
 // around the camera.
 void Projector::put_keys_together(const Buffer<std::uint32_t>& keys,
-                                  const Buffer<shared::BlockCounts>& counts, std::uint32_t blocks,
+                                  const Buffer<shared::BlockCounts>& counts,
+                                  const std::vector<shared::BlockCounts>& found,
                                   std::uint32_t stride, KeyedSplats& keyed) const {
   BufferPool& pool = context_.device.pool;
   const std::uint64_t most = keyed.particles.visible + keyed.particles.around;
@@ -312,18 +262,17 @@ void Projector::put_keys_together(const Buffer<std::uint32_t>& keys,
   keyed.keys = std::move(sort_keys);
   keyed.scratch = std::move(scratch);
   keyed.order = pool.get<std::uint32_t>(most, "order");
-  const auto offsets = pool.get<std::uint32_t>(std::uint64_t{blocks} + 1, "block offsets");
-  scan_counts(blocks, counts, offsets);
-  Launch(context_.device, "project",
-         context_.device.programs.get(program_source("kernels/project/compact.cl"))
-             .create_kernel("compact_keys"))
-      .value(stride)
+  Launch launch(context_.device, "project",
+                context_.device.programs.get(program_source("kernels/project/compact.cl"))
+                    .create_kernel("list_slots"));
+  launch.value(stride)
+      .value(cl_uint{1})
       .arg(counts)
-      .arg(offsets)
+      .arg(pool.upload(first_splats(found), "block offsets"))
       .arg(keys)
       .arg(keyed.keys)
-      .arg(keyed.order)
-      .run_items(blocks);
+      .arg(keyed.order);
+  run_by_blocks(launch, found.size());
 }
 
 KeyedSplats Projector::keyed_memory(std::uint32_t count) const {
@@ -342,16 +291,6 @@ Buffer<std::uint16_t> Projector::key_ends(std::uint32_t slots, Filling filling) 
   return context_.device.pool.get<std::uint16_t>(count, "ends of sort keys", filling);
 }
 
-Buffer<shared::BlockCounts> Projector::counts_of(std::uint32_t blocks) const {
-  DeviceContext& device = context_.device;
-  return scan_ ? no_counts(device) : device.pool.get<shared::BlockCounts>(blocks, "block counts");
-}
-
-ParticleCounts Projector::download_counts(const Buffer<shared::BlockCounts>& counts,
-                                          std::uint32_t blocks) const {
-  return sum_of(context_.device.pool.download(counts, scan_ ? 1 : blocks));
-}
-
 ChunkKeys Projector::count_keys(const ParticleChunk& chunk, const ParticleBuffers& particles,
                                 const KeyWindow& window, int shift,
                                 const Buffer<std::uint32_t>& key_counts) const {
@@ -360,69 +299,41 @@ ChunkKeys Projector::count_keys(const ParticleChunk& chunk, const ParticleBuffer
   take_window(window, parameters);
   parameters.bin_shift = shift;
   const std::uint32_t blocks = block_count(parameters);
-  const auto counts = counts_of(blocks);
+  const auto counts = pool.get<shared::BlockCounts>(blocks, "block counts");
   const auto offsets = pool.upload(std::vector<std::uint32_t>(blocks + 1), "block offsets");
   const auto bins = pool.get<shared::KeyBins>(blocks, "bins of keys");
   const KeyTargets keys = {key_counts, bins};
   const std::vector<std::uint32_t> left_out = left_out_blocks(parameters, particles);
-  Targets targets = {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_};
+  Targets targets = {offsets, counts, splat_memory(0), unused_, unused_ends_};
   targets.key_counts = &keys;
   launch(ProjectOutput::key_counts, parameters, particles, left_out, targets);
-  return {download_counts(counts, blocks), pool.download(bins, blocks), count_left_out(left_out)};
-}
-
-std::uint32_t Projector::project_window(const ParticleChunk& chunk,
-                                        const ParticleBuffers& particles, const KeyWindow& window,
-                                        const std::vector<std::uint32_t>& without,
-                                        const KeyedSplats& keyed, std::uint32_t first_slot) const {
-  shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
-  take_window(window, parameters);
-  parameters.first_slot = first_slot;
-  return scan_ ? project_window_in_groups(parameters, particles, without, keyed)
-               : project_window_in_blocks(parameters, particles, without, keyed);
-}
-
-std::uint32_t Projector::project_window_in_groups(const shared::ProjectParameters& parameters,
-                                                  const ParticleBuffers& particles,
-                                                  const std::vector<std::uint32_t>& without,
-                                                  const KeyedSplats& keyed) const {
-  const std::uint32_t groups = block_count(parameters);
-  const auto counts = counts_of(groups);
-  const auto offsets =
-      context_.device.pool.get<std::uint32_t>(std::uint64_t{groups} + 1, "group offsets");
-  launch(ProjectOutput::window_counts, parameters, particles, without,
-         {offsets, counts, splat_memory(0), unused_, unused_ends_, unused_});
-  scan_counts(groups, counts, offsets);
-  const ParticleCounts found = download_counts(counts, groups);
-  launch(ProjectOutput::window_splats, parameters, particles, without,
-         {offsets, counts, keyed.splats, keyed.keys, keyed.key_ends, keyed.order});
-  return static_cast<std::uint32_t>(found.visible);
+  return {sum_of(pool.download(counts, blocks)), pool.download(bins, blocks),
+          count_left_out(left_out)};
 }
 
 // A window has a part of each block's splats. Where they go is known when all are projected, and
 // to move them is cheaper than to project the particles twice.
-std::uint32_t Projector::project_window_in_blocks(const shared::ProjectParameters& parameters,
-                                                  const ParticleBuffers& particles,
-                                                  const std::vector<std::uint32_t>& without,
-                                                  const KeyedSplats& keyed) const {
-  const std::uint32_t blocks = block_count(parameters);
-  const std::uint32_t stride =
-      parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
-  const auto counts = counts_of(blocks);
-  const auto offsets = context_.device.pool.upload(first_slots(blocks, stride), "block offsets");
+std::uint32_t Projector::project_window(const ParticleChunk& chunk,
+                                        const ParticleBuffers& particles, const KeyWindow& window,
+                                        const std::vector<std::uint32_t>& without,
+                                        const KeyedSplats& keyed, std::uint32_t first_slot) const {
+  BufferPool& pool = context_.device.pool;
+  shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
+  take_window(window, parameters);
+  const std::uint32_t blocks = block_count(parameters), stride = stride_of(parameters);
+  const auto counts = pool.get<shared::BlockCounts>(blocks, "block counts");
   const KeyedSplats apart = keyed_memory(blocks * stride);
-  shared::ProjectParameters with_gaps = parameters;
-  with_gaps.first_slot = 0;
-  launch(ProjectOutput::window_splats, with_gaps, particles, without,
-         {offsets, counts, apart.splats, apart.keys, apart.key_ends, unused_});
-  scan_counts(blocks, counts, offsets);
-  const Variant& variant = context_.variant;
+  launch(ProjectOutput::splats_and_keys, parameters, particles, without,
+         {pool.upload(first_slots(blocks, stride), "block offsets"), counts, apart.splats,
+          apart.keys, apart.key_ends});
+  const std::vector<std::uint32_t> first = first_splats(pool.download(counts, blocks));
+  const auto offsets = pool.upload(first, "block offsets");
   const auto compact = [&](const Buffer<std::byte>& from, const Buffer<std::byte>& to,
                            std::size_t splat_bytes, bool has_keys) {
-    Launch(context_.device, "project",
-           context_.device.programs.get(program_source("kernels/project/compact.cl"))
-               .create_kernel("compact"))
-        .value(parameters.first_slot)
+    Launch launch(context_.device, "project",
+                  context_.device.programs.get(program_source("kernels/project/compact.cl"))
+                      .create_kernel("compact"));
+    launch.value(first_slot)
         .value(stride)
         .value(static_cast<cl_uint>(splat_bytes / sizeof(cl_uint)))
         .value(static_cast<cl_uint>(has_keys))
@@ -435,31 +346,15 @@ std::uint32_t Projector::project_window_in_blocks(const shared::ProjectParameter
         .arg(to)
         .arg(keyed.keys)
         .arg(keyed.key_ends)
-        .arg(keyed.order)
-        .run_items(blocks);
+        .arg(keyed.order);
+    run_by_blocks(launch, blocks);
   };
+  const Variant& variant = context_.variant;
   compact(apart.splats.splats, keyed.splats.splats, variant.splat_bytes(), true);
   if (variant.extended) {
     compact(apart.splats.extended, keyed.splats.extended, variant.extended_splat_bytes(), false);
   }
-  return static_cast<std::uint32_t>(download_counts(counts, blocks).visible);
-}
-
-// Where the splats of each block begin, from how many it has.
-void Projector::scan_counts(std::uint32_t blocks, const Buffer<shared::BlockCounts>& counts,
-                            const Buffer<std::uint32_t>& offsets) const {
-  if (scan_) {
-    scan_->scan("project", offsets, blocks);
-    return;
-  }
-  DeviceContext& device = context_.device;
-  Launch(
-      device, "project",
-      device.programs.get(program_source("kernels/project/scan.cl")).create_kernel("scan_blocks"))
-      .value(blocks)
-      .arg(counts)
-      .arg(offsets)
-      .run_items(1);
+  return first.back();
 }
 
 }  // namespace splotchcl

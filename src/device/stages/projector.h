@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "device/frame/chunks.h"
@@ -9,7 +8,7 @@
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
-#include "device/stages/group_scan.h"
+#include "device/opencl/launch.h"
 #include "device/stages/stage_programs.h"
 
 namespace splotchcl {
@@ -21,7 +20,8 @@ struct ChunkKeys {
   std::uint32_t left_out = 0;  // blocks out of view
 };
 
-// Particles to splats: the stage `project`.
+// Particles to splats: the stage `project`. Each block of particles has room for the splats of all
+// of them, so that they are projected once: how many come before is known afterwards.
 class Projector {
  public:
   explicit Projector(const StageContext& context);
@@ -51,36 +51,20 @@ class Projector {
   struct KeyTargets;
   struct Targets;
   struct AllParticles;
-  KeyedSplats project_all_in_blocks(const AllParticles& all,
-                                    const std::vector<ParticleBuffers>& particles) const;
+  bool has_rows() const { return context_.variant.rows; }
+  AllParticles all_of(const std::vector<ParticleBuffers>& particles) const;
   void put_keys_together(const Buffer<std::uint32_t>& keys,
-                         const Buffer<shared::BlockCounts>& counts, std::uint32_t blocks,
-                         std::uint32_t stride, KeyedSplats& keyed) const;
+                         const Buffer<shared::BlockCounts>& counts,
+                         const std::vector<shared::BlockCounts>& found, std::uint32_t stride,
+                         KeyedSplats& keyed) const;
+  void list_slots(SplatBlocks& blocks) const;
   Filling filling_of_slots() const;
-  KeyedSplats project_all_in_groups(const AllParticles& all,
-                                    const std::vector<ParticleBuffers>& particles) const;
   std::vector<ChunkBlocks> chunks_around(const AllParticles& all,
                                          const std::vector<shared::BlockCounts>& found) const;
-  void launch_all(ProjectOutput output, const AllParticles& all,
-                  const std::vector<ParticleBuffers>& particles, const Targets& targets) const;
   Buffer<std::uint16_t> key_ends(std::uint32_t slots, Filling filling = Filling::whole) const;
-  Buffer<shared::BlockCounts> counts_of(std::uint32_t blocks) const;
-  ParticleCounts download_counts(const Buffer<shared::BlockCounts>& counts,
-                                 std::uint32_t blocks) const;
-  SplatBlocks project_in_blocks(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
-  SplatBlocks project_in_groups(const ParticleChunk& chunk, const ParticleBuffers& particles) const;
-  // Writes from parameters.first_slot on; how many.
-  std::uint32_t project_window_in_blocks(const shared::ProjectParameters& parameters,
-                                         const ParticleBuffers& particles,
-                                         const std::vector<std::uint32_t>& without,
-                                         const KeyedSplats& keyed) const;
-  std::uint32_t project_window_in_groups(const shared::ProjectParameters& parameters,
-                                         const ParticleBuffers& particles,
-                                         const std::vector<std::uint32_t>& without,
-                                         const KeyedSplats& keyed) const;
-  void scan_counts(std::uint32_t blocks, const Buffer<shared::BlockCounts>& counts,
-                   const Buffer<std::uint32_t>& offsets) const;
+  std::uint32_t stride_of(const shared::ProjectParameters& parameters) const;
   SplatMemory splat_memory(std::uint64_t splats, Filling filling = Filling::whole) const;
+  void run_by_blocks(Launch& launch, std::size_t blocks) const;
   // Of any order and lists: the same in every frame of the plan.
   Buffer<shared::WidthNeeds> upload_needs() const;
   // Per block of the launch: 0, or out of view and how many of it are bad, and 1; or nothing, where
@@ -93,7 +77,6 @@ class Projector {
 
   const StageContext& context_;
   const Buffer<shared::WidthNeeds> width_needs_;
-  std::optional<GroupScan> scan_;  // in the shape for GPUs
   // Stand for what a variant of the kernel does not write.
   Buffer<std::uint32_t> unused_;
   Buffer<std::uint16_t> unused_ends_;

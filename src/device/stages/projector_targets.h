@@ -22,7 +22,6 @@ struct Projector::Targets {
   const SplatMemory& splats;
   const Buffer<std::uint32_t>& keys;
   const Buffer<std::uint16_t>& key_ends;
-  const Buffer<std::uint32_t>& order;
   // Of splats that are binned as they come.
   const SplatBlocks* blocks = nullptr;
   const KeyTargets* key_counts = nullptr;  // where keys are counted

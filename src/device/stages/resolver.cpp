@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,14 @@ std::size_t refined_strips(const shared::GridPart& part) {
   return ceil_divide(static_cast<std::size_t>(part.right_end - part.left) + 1, 16);
 }
 
+// Where so much shows through. An opacity of floats errs by ten roundings of 1 (plan.h,
+// keeps_transmittance).
+float depth_behind(float passed, const LayerLimits& layers) {
+  constexpr float roundings = 10 * 0x1p-24f, deepest_of_floats = 88;
+  const float known = layers.keeps_transmittance ? passed : passed - roundings;
+  return known > 0 ? std::min(-std::log(known), deepest_of_floats) : deepest_of_floats;
+}
+
 }  // namespace
 
 Resolver::Resolver(const StageContext& context)
@@ -86,6 +95,8 @@ Resolver::Resolver(const StageContext& context)
     if (context.plan.pyramid.is_blurred())
       blur_program_ = context.device.programs.get(blur_program(context.variant));
   }
+  if (context.plan.light != LightPlan::emission)
+    deepest_program_ = context.device.programs.get(deepest_program(context.variant));
   if (context.plan.slabs > 0)
     slab_program_ = context.device.programs.get(lay_slab_program(context.variant));
 }
@@ -344,6 +355,46 @@ std::vector<float> Resolver::errors_of_slabs(const SlabLight& slab) const {
   return blocks;
 }
 
+// Planes of others hold depths.
+bool Resolver::has_opacities() const {
+  return context_.plan.needs_sort() && !context_.plan.is_extended();
+}
+
+Buffer<float> Resolver::find_deepest(const Planes& planes) const {
+  static_assert(BlockErrors::block_pixels == ROWS_OF_BLOCK);
+  const std::size_t eights = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
+  const auto rows = static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.height));
+  auto deepest = context_.device.pool.get<float>(eights * rows, "depths of blocks");
+  // Extended numbers are pairs (resolve.cl).
+  const cl_uint step = context_.plan.is_extended() ? 2 : 1;
+  const cl_uint first = context_.plan.needs_sort() ? 3 * step : 0;
+  Launch(context_.device, "resolve", deepest_program_.create_kernel("find_deepest"))
+      .value(parameters_)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .value(first)
+      .value(step)
+      .arg(deepest)
+      .run_grid(eights, rows, 1);
+  return deepest;
+}
+
+std::vector<float> Resolver::depths_of_blocks(const Buffer<float>& deepest) const {
+  constexpr std::size_t eights_of_block = BlockErrors::block_pixels / 8;
+  const std::size_t eights = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
+  const auto columns = static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.width));
+  const auto rows = static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.height));
+  const std::vector<float> of_eights = context_.device.pool.download(deepest, eights * rows);
+  std::vector<float> blocks(columns * rows, 1.0f);
+  for (std::size_t i = 0; i < of_eights.size(); ++i) {
+    float& block = blocks[i / eights * columns + i % eights / eights_of_block];
+    block = std::min(block, of_eights[i]);
+  }
+  for (float& block : blocks)
+    block = has_opacities() ? depth_behind(block, context_.plan.layers) : 1 - block;
+  return blocks;
+}
+
 // The crop's part of the background's picture, a plane per channel, in rows of `stride`.
 Buffer<float> Resolver::upload_background(std::size_t stride) const {
   const Rectangle& crop = context_.frame.crop;
@@ -360,10 +411,15 @@ Buffer<float> Resolver::upload_background(std::size_t stride) const {
   return context_.device.pool.upload(planes, "background");
 }
 
-Image Resolver::resolve(Planes light) const {
+Planes Resolver::to_picture(Planes light) const {
   constexpr std::uint32_t picture = 1;
   if ((light.used_grids & ~picture) != 0) collect(light, 0, room_for_collecting());
-  const Planes planes = std::move(light);
+  light.used_grids = picture;
+  return light;
+}
+
+Image Resolver::resolve(Planes light) const {
+  const Planes planes = to_picture(std::move(light));
   if (context_.device.traits.shares_host_memory) {
     Image image = image_on_large_pages(parameters_.width, parameters_.height);
     resolve_in_place(planes, image);
@@ -396,16 +452,17 @@ void Resolver::write_pixels(const Planes& planes, const compute::buffer& pixels)
   DeviceContext& device = context_.device;
   const std::size_t width_strips = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
   shared::ResolveParameters parameters = parameters_;
-  Buffer<float> background;
-  if (context_.variant.background_image) {
-    parameters.background_stride = static_cast<int>(8 * width_strips);
-    background = upload_background(8 * width_strips);
-  }
-  Launch launch(device, "resolve", program_.create_kernel("resolve"));
-  launch.value(parameters).arg(context_.grids).arg(planes.light);
-  if (context_.variant.background_image) launch.arg(background);
-  launch.arg(pixels).run_grid(items_of(width_strips), static_cast<std::size_t>(parameters_.height),
-                              1);
+  parameters.background_stride = static_cast<int>(8 * width_strips);
+  const Buffer<float> background = context_.variant.background_image
+                                       ? upload_background(8 * width_strips)
+                                       : device.pool.get<float>(0, "unused");
+  Launch(device, "resolve", program_.create_kernel("resolve"))
+      .value(parameters)
+      .arg(context_.grids)
+      .arg(planes.light)
+      .arg(background)
+      .arg(pixels)
+      .run_grid(items_of(width_strips), static_cast<std::size_t>(parameters_.height), 1);
 }
 
 }  // namespace splotchcl

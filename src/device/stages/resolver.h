@@ -14,7 +14,14 @@ class Resolver {
  public:
   explicit Resolver(const StageContext& context);
 
+  // All that coarse grids hold on the picture's own.
+  Planes to_picture(Planes planes) const;
   Image resolve(Planes planes) const;
+  // Of the picture's planes that hold depths or opacities: how deep they are at most,
+  // in numbers of the kernel's own.
+  Buffer<float> find_deepest(const Planes& planes) const;
+  // The depth of the deepest channel of each of the picture's blocks (BlockErrors).
+  std::vector<float> depths_of_blocks(const Buffer<float>& deepest) const;
 
   // An ordered plan's planes before its first slab.
   SlabLight start_slabs() const;
@@ -45,6 +52,7 @@ class Resolver {
   void blur_by_axes(const Planes& planes, std::size_t blur, int level, const LevelLight& target,
                     bool add, const Buffer<float>& columns) const;
   std::size_t items_of(std::size_t eights) const;
+  bool has_opacities() const;
   void refine_columns(const LevelLight& coarse, const shared::RefineParameters& parameters,
                       const Buffer<float>& columns) const;
   shared::RefineParameters refine_parameters(std::uint32_t coarse, std::uint32_t fine,
@@ -57,7 +65,7 @@ class Resolver {
 
   const StageContext& context_;
   shared::ResolveParameters parameters_{};
-  Program program_, grids_program_, blur_program_, slab_program_;
+  Program program_, grids_program_, blur_program_, slab_program_, deepest_program_;
 };
 
 }  // namespace splotchcl

@@ -3,26 +3,20 @@
 namespace splotchcl {
 namespace {
 
-Choices choices_of(ProjectOutput output) {
-  switch (output) {
-    case ProjectOutput::counts:
-      return {};
-    case ProjectOutput::splats:
-      return {"OUTPUT_SPLATS"};
-    case ProjectOutput::splats_and_keys:
-      return {"OUTPUT_SPLATS", "OUTPUT_KEYS"};
-    case ProjectOutput::key_counts:
-      return {"KEY_WINDOW", "COUNT_KEYS"};
-    case ProjectOutput::window_counts:
-      return {"KEY_WINDOW"};
-    case ProjectOutput::window_splats:
-      return {"OUTPUT_SPLATS", "OUTPUT_KEYS", "KEY_WINDOW"};
-  }
-  return {};
+std::string flag(const std::string& name, bool is_set) {
+  return name + (is_set ? " 1" : " 0");
 }
 
-Choices rows_of_16(const Variant& variant) {
-  return variant.takes_rows_of_16() ? Choices{"ROWS_OF_16"} : Choices{};
+// Lists are counted with sums alone, and on processors.
+Choices choices_of(ProjectOutput output, bool counts_tiles) {
+  return {flag("OUTPUT_SPLATS", output != ProjectOutput::key_counts),
+          flag("OUTPUT_KEYS", output == ProjectOutput::splats_and_keys),
+          flag("COUNT_KEYS", output == ProjectOutput::key_counts),
+          flag("COUNT_TILES", counts_tiles)};
+}
+
+Choices composite_choices(const Variant& variant, bool has_clouds) {
+  return {flag("ROWS_OF_16", variant.takes_rows_of_16()), flag("CLOUDS_IN_LISTS", has_clouds)};
 }
 
 // By rows of a tile, or a pixel for each item of a group.
@@ -36,9 +30,8 @@ std::string composite_file(const Variant& variant) {
 }  // namespace
 
 ProgramSource project_program(const Variant& variant, ProjectOutput output) {
-  Choices choices = choices_of(output);
+  Choices choices = choices_of(output, variant.rows && output == ProjectOutput::splats);
   if (!variant.rows) return program_source(variant, "kernels/project/project_groups.cl", choices);
-  if (output == ProjectOutput::splats) choices.emplace_back("COUNT_TILES");
   // Extended numbers are of one particle at a time.
   if (variant.rows_of_16 && !variant.extended) choices.emplace_back("LANES_16");
   return program_source(variant, "kernels/project/project.cl", choices);
@@ -49,13 +42,11 @@ ProgramSource bin_program(const Variant& variant) {
 }
 
 ProgramSource composite_program(const Variant& variant) {
-  return program_of_layers(variant, composite_file(variant), rows_of_16(variant));
+  return program_of_layers(variant, composite_file(variant), composite_choices(variant, false));
 }
 
 ProgramSource composite_with_clouds_program(const Variant& variant) {
-  Choices choices = rows_of_16(variant);
-  choices.emplace_back("CLOUDS_IN_LISTS 1");
-  return program_of_layers(variant, composite_file(variant), choices);
+  return program_of_layers(variant, composite_file(variant), composite_choices(variant, true));
 }
 
 ProgramSource join_program(const Variant& variant) {
@@ -84,6 +75,10 @@ ProgramSource lay_slab_program(const Variant& variant) {
 
 ProgramSource resolve_program(const Variant& variant) {
   return program_source(variant, "kernels/resolve/resolve.cl");
+}
+
+ProgramSource deepest_program(const Variant& variant) {
+  return program_source(variant, "kernels/resolve/deepest.cl");
 }
 
 ProgramSource list_around_program(const Variant& variant) {

@@ -7,13 +7,9 @@ namespace splotchcl {
 
 // What a projection writes.
 enum class ProjectOutput {
-  counts,           // how many splats each block has
-  splats,           // and the splats
-  splats_and_keys,  // and their sort keys
-  // Of splats in a window of sort keys alone (key_windows.h):
-  key_counts,     // as counts, and how many keys lie in each bin
-  window_counts,  // as counts
-  window_splats,  // as splats_and_keys
+  splats,
+  splats_and_keys,  // of those in a window of sort keys (key_windows.h)
+  key_counts,       // how many of these keys lie in each bin, and no splats
 };
 
 ProgramSource project_program(const Variant& variant, ProjectOutput output);
@@ -28,6 +24,8 @@ ProgramSource blur_program(const Variant& variant);
 // A slab's wide splats laid among its narrow ones.
 ProgramSource lay_slab_program(const Variant& variant);
 ProgramSource resolve_program(const Variant& variant);
+// How deep the layers are at most.
+ProgramSource deepest_program(const Variant& variant);
 // Of clouds around the camera: which they are, and their layers.
 ProgramSource list_around_program(const Variant& variant);
 ProgramSource behind_program(const Variant& variant);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/quiet_errors.h"
+#include "common/utf8.h"
 #include "parallel/in_background.h"
 #include "pictures/other_scenes.h"
 #include "ranks/spread_particles.h"
@@ -102,7 +103,7 @@ DrawnFrame all_or_none(const Frame& frame, const Draw& draw) {
                   : failure.what());
     // What a compiler says has several.
     std::replace(line.begin(), line.end(), '\n', ' ');
-    std::fputs((line + "\n").c_str(), stderr);
+    std::fputs((printable(line) + "\n").c_str(), stderr);
     ranks.abort(failed);
     throw;  // not reached
   }

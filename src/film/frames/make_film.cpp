@@ -193,9 +193,7 @@ class Film {
       if (report_.frame) report_.frame(frames[i], i, frames.size());
       const Scene scene = as_stored(scene_.scene_at(frames[i]));
       const auto output = has_files() ? files_.picture(frames[i], "") : std::filesystem::path();
-      const RenderStats stats =
-          drawer.draw(frames[i], scene, *scene_.snapshot_at(scene), scene_.other_scenes(), output,
-                      [&] { agree(options_.ranks.get(), [&] { scene_.check_files(); }); });
+      const RenderStats stats = draw_frame(drawer, frames[i], scene, output);
       if (report_.drawn) report_.drawn(frames[i], stats);
       agree(options_.ranks.get(), [&] { stop_if_asked(drawer); });
     }
@@ -203,6 +201,18 @@ class Film {
       drawer.finish();
       if (has_files()) require_drawn(frames);
     });
+  }
+
+  // What changes while it is drawn may fail anywhere: then that is what to tell.
+  RenderStats draw_frame(FilmDrawer& drawer, int frame, const Scene& scene,
+                         const std::filesystem::path& output) {
+    try {
+      return drawer.draw(frame, scene, *scene_.snapshot_at(scene), scene_.other_scenes(), output,
+                         [&] { agree(options_.ranks.get(), [&] { scene_.check_files(); }); });
+    } catch (const Error&) {
+      if (!options_.ranks) scene_.check_files();
+      throw;
+    }
   }
 
   // Somebody else may tidy up where they lie.

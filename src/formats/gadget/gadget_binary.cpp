@@ -71,6 +71,7 @@ class GadgetBinarySnapshot : public Snapshot {
 
 GadgetBinarySnapshot::GadgetBinarySnapshot(const std::filesystem::path& path) {
   members_ = read_members(path, read_member, info_);
+  info_.files_mark = hash_of_files(info_).value();
   const GadgetBinaryFile& first = members_.front().file;
   info_.format = fmt::format("Gadget format {}, {}-endian", first.format,
                              first.is_swapped == is_little_endian_host() ? "big" : "little");

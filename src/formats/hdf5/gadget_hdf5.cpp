@@ -13,6 +13,7 @@
 #include "formats/hdf5/hdf5_field_unit.h"
 #include "formats/hdf5/hdf5_formats.h"
 #include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -89,6 +90,7 @@ GadgetHdf5Snapshot::GadgetHdf5Snapshot(const std::filesystem::path& path) {
     info_.files_beside.insert(info_.files_beside.end(), member.links.followed.begin(),
                               member.links.followed.end());
   }
+  info_.files_mark = hash_of_files(info_).value();
   read_dialect();
   for (ParticleTypeInfo& type : info_.types)
     find_fields(type);
@@ -180,6 +182,7 @@ void GadgetHdf5Snapshot::name_unit_of_table_mass(const Hdf5File& file, ParticleT
 }
 
 std::vector<Hdf5Values> GadgetHdf5Snapshot::find_parts(int type, const std::string& label) const {
+  check_files_are_the_same(info_);
   std::vector<Hdf5Values> parts;
   for (const Hdf5Member& member : members_) {
     const Hdf5Field* const field = member.find_field(type, label);

@@ -14,6 +14,7 @@
 #include "formats/position_origin.h"
 #include "formats/unit_names.h"
 #include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -130,6 +131,7 @@ PhantomSnapshot::PhantomSnapshot(const std::filesystem::path& path) : file_(path
                                       file_.dataset("/sinks/xyz").rows()));
   }
   info_.files_beside.assign(file_.links().followed.begin(), file_.links().followed.end());
+  info_.files_mark = hash_of_files(info_).value();
   note_refused(file_.links(), info_.notes);
   choose_origin();
 }
@@ -383,6 +385,7 @@ Column PhantomSnapshot::density(int type) const {
 
 Column PhantomSnapshot::read(int type, const std::string& name) const {
   const FieldInfo& field = require_field(info_, type, name);
+  check_files_are_the_same(info_);
   if (field.file_name == mass_label) {
     const std::optional<double> table_mass = require_type(info_, type).table_mass;
     if (!table_mass) return Column::owning(types_.at(type).masses);

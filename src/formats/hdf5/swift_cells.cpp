@@ -11,6 +11,7 @@
 
 #include "formats/hdf5/hdf5_file.h"
 #include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -126,6 +127,7 @@ bool has_lost_digits(const Hdf5File& file, const std::string& dataset) {
 std::vector<ParticleCell> read_cells(const SnapshotInfo& info, const ParticleTypeInfo& type) {
   const FieldInfo* const position = find_field(type, "position");
   if (position == nullptr) return {};
+  check_files_are_the_same(info);
   const Hdf5File file(info.files.front());
   const std::string path = fmt::format("/PartType{}/{}", type.type, position->file_name);
   const std::optional<CellTable> table = read_table(file, type.type);

@@ -11,6 +11,7 @@
 #include "formats/stored_values.h"
 #include "formats/tipsy/tipsy_arrays.h"
 #include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
 
@@ -147,6 +148,7 @@ TipsySnapshot::TipsySnapshot(const std::filesystem::path& path) : file_(MappedFi
   find_start();
   arrays_ = find_tipsy_arrays(path, header_.particles, header_.is_swapped, info_.notes);
   describe_types();
+  info_.files_mark = hash_of_files(info_).value();
 }
 
 const TipsyArray* TipsySnapshot::find_array(const std::string& name) const {

@@ -13,6 +13,8 @@ constexpr double fast_tolerance = 3e-4;
 // ... and places finer than the integers that hold the picture. Below this one, roundings of
 // distances and widths leave nothing to be had by them.
 constexpr double least_of_fine_places = 2e-6;
+// Wider pictures need finer ones at any tolerance: the integers have steps of 8e-6 pixels there.
+constexpr int widest_of_integers = 8192;
 // Roundings of sums show below this one.
 constexpr double small_blocks_tolerance = 3e-5;
 
@@ -91,9 +93,11 @@ ErrorBudget make_extended_budget() {
 ErrorBudget make_error_budget(const Frame& frame, double drawn_for, LightPlan light,
                               bool coarse_grids) {
   ErrorBudget budget;
-  if (frame.tolerance == 0) return make_extended_budget();
+  if (frame.tolerance < extended_tolerance) return make_extended_budget();
   budget.precision = drawn_for < fast_tolerance ? Precision::full : Precision::fast;
-  budget.has_fine_places = budget.precision == Precision::full && drawn_for >= least_of_fine_places;
+  const bool is_wide = std::max(frame.width, frame.height) > widest_of_integers;
+  budget.has_fine_places =
+      (is_wide || budget.precision == Precision::full) && drawn_for >= least_of_fine_places;
   budget.adds_small_blocks = drawn_for < small_blocks_tolerance;
   budget.shares = share_out(drawn_for, light, coarse_grids);
   budget.shares.promise = frame.tolerance;

@@ -44,6 +44,18 @@ TEST_P(GadgetHdf5Styles, HasTheColumnsOfTheSameStateInFormat2) {
   EXPECT_EQ(hdf5->info().hubble_parameter, binary->info().hubble_parameter);
 }
 
+// Its files are opened again for each column.
+TEST(GadgetHdf5, WhoseFileIsAnotherThanWhenItWasOpenedIsAnError) {
+  const TemporaryFolder folder;
+  write_hdf5(folder / "snap.hdf5", small_snapshot());
+  const auto held = open_snapshot(folder / "snap.hdf5");
+  write_hdf5(folder / "other.hdf5", small_snapshot());
+  std::filesystem::rename(folder / "other.hdf5", folder / "snap.hdf5");
+  EXPECT_THAT([&] { held->read(0, "position"); },
+              ::testing::ThrowsMessage<DataError>(HasSubstr("since it was opened; open it again")));
+  EXPECT_NO_THROW(open_snapshot(folder / "snap.hdf5")->read(0, "position"));
+}
+
 TEST(GadgetHdf5, StatesTheUnitsThatTheFileStates) {
   const TemporaryFolder folder;
   Hdf5Style style;

@@ -1,11 +1,25 @@
-#include "device/frame/key_slices.h"
+#include "device/walk/key_slices.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace splotchcl {
 namespace {
+
+// Bin `bin` as a window of its own.
+KeyWindow window_of_bin(const CountedKeys& counted, std::size_t bin) {
+  const std::uint64_t width = std::uint64_t{1} << counted.shift;
+  // The counted keys agree in all bits above those that number the bins.
+  const std::uint64_t upper = counted.window.first >> (counted.shift + bits_of_key_bin)
+                                                          << (counted.shift + bits_of_key_bin);
+  KeyWindow window;
+  window.first = std::max(counted.window.first, upper + bin * width);
+  window.end = std::min(counted.window.end, upper + (bin + 1) * width);
+  window.splats = counted.bins[bin];
+  return window;
+}
 
 // Splats that stay together, from this place on.
 struct Piece {
@@ -71,6 +85,15 @@ std::vector<KeySlice> join(const std::vector<Piece>& pieces, std::uint64_t total
   return slices;
 }
 
+// The first chunk that ends behind this splat: of splats before it nothing is left over in others.
+std::size_t chunk_at(std::uint64_t splat, const std::vector<SplatChunk>& chunks) {
+  const auto found = std::upper_bound(chunks.begin(), chunks.end(), splat,
+                                      [](std::uint64_t place, const SplatChunk& chunk) {
+                                        return place < chunk.first + chunk.count;
+                                      });
+  return static_cast<std::size_t>(found - chunks.begin());
+}
+
 }  // namespace
 
 std::size_t slice_of(const SplatPlace& place, const KeySlice* slices, std::size_t count) {
@@ -89,6 +112,13 @@ KeyWindow window_of(const KeySlice* slices, std::size_t count) {
   window.splats =
       std::accumulate(slices, slices + count, std::uint64_t{0},
                       [](std::uint64_t sum, const KeySlice& slice) { return sum + slice.splats; });
+  return window;
+}
+
+KeyWindow window_of_chunk(const KeySlice& slice, std::uint64_t chunk) {
+  KeyWindow window;
+  window.first = slice.begin.key + (chunk < slice.begin.chunk ? 1 : 0);
+  window.end = slice.end.key + (chunk < slice.end.chunk ? 1 : 0);
   return window;
 }
 
@@ -111,6 +141,44 @@ std::vector<KeySlice> cut_in_slices(const CountedKeys& counted, std::size_t rank
                     [capacity](const KeySlice& slice) { return slice.splats <= capacity; });
     if (have_room || ranks * rounds >= pieces.size()) return slices;
   }
+}
+
+SlicePart part_of(const KeySlice& slice, const std::vector<SplatChunk>& chunks) {
+  const std::uint64_t end = slice.first + slice.splats;
+  const auto first_of = [&](std::size_t chunk, std::uint64_t if_behind_all) {
+    return chunk < chunks.size() ? chunks[chunk].first : if_behind_all;
+  };
+  SlicePart part;
+  part.first_chunk = chunk_at(slice.first, chunks);
+  part.end_chunk = chunk_at(end, chunks);
+  part.first = first_of(part.first_chunk, slice.first);
+  part.carried = static_cast<std::uint32_t>(slice.first - part.first);
+  part.own = static_cast<std::uint32_t>(slice.splats);
+  part.passed_on = static_cast<std::uint32_t>(end - first_of(part.end_chunk, end));
+  return part;
+}
+
+std::vector<CloudRange> clouds_of_slices(const std::vector<std::uint64_t>& keys,
+                                         const std::vector<KeySlice>& slices) {
+  const auto lies_before = [](std::uint64_t key, const SplatPlace& place) {
+    return SplatPlace{key, std::numeric_limits<std::uint64_t>::max()} < place;
+  };
+  std::vector<CloudRange> ranges;
+  std::size_t first = 0;  // also of clouds nearer than all splats
+  for (std::size_t s = 0; s < slices.size(); ++s) {
+    const auto end = s + 1 < slices.size() ? std::lower_bound(keys.begin(), keys.end(),
+                                                              slices[s + 1].begin, lies_before)
+                                           : keys.end();
+    ranges.push_back({first, static_cast<std::size_t>(end - keys.begin())});
+    first = ranges.back().end;
+  }
+  return ranges;
+}
+
+KeySlice with_clouds(KeySlice slice, const CloudRange& clouds) {
+  slice.first += clouds.first;
+  slice.splats += clouds.end - clouds.first;
+  return slice;
 }
 
 }  // namespace splotchcl

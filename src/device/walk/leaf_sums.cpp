@@ -1,4 +1,4 @@
-#include "device/ranks/leaf_sums.h"
+#include "device/walk/leaf_sums.h"
 
 #include <utility>
 
@@ -6,17 +6,16 @@
 
 namespace splotchcl {
 
-LeafSums::LeafSums(const StageContext& context, std::size_t leaves, const FrameRanks* ranks,
-                   const LightTransfer* transfer)
+LeafSums::LeafSums(const StageContext& context, std::size_t leaves, const FrameRanks& ranks,
+                   const LightTransfer& transfer)
     : adder_(context),
       leaves_(leaves),
       ranks_(ranks),
       transfer_(transfer),
-      own_(ranks == nullptr ? ChunkRange{0, leaves}
-                            : leaves_of_rank(leaves, ranks->rank(), ranks->size())) {}
+      own_(leaves_of_rank(leaves, ranks.rank(), ranks.size())) {}
 
 int LeafSums::owner_of(const Node& node) const {
-  return ranks_ == nullptr ? 0 : owner_of_leaf(node.first, leaves_, ranks_->size());
+  return owner_of_leaf(node.first, leaves_, ranks_.size());
 }
 
 void LeafSums::draw(const DrawLeaf& draw_leaf) {
@@ -53,12 +52,12 @@ SplatLight LeafSums::join_node(const Node& node) {
   const std::size_t middle = node.first + left_leaves(node.end - node.first);
   const Node left_node = {node.first, middle}, right_node = {middle, node.end};
   SplatLight left = join_node(left_node), right = join_node(right_node);
-  const int own = ranks_->rank(), of_left = owner_of(left_node), of_right = owner_of(right_node);
+  const int own = ranks_.rank(), of_left = owner_of(left_node), of_right = owner_of(right_node);
   if (of_left == own) {
-    if (of_right != own) right = transfer_->receive(of_right);
+    if (of_right != own) right = transfer_.receive(of_right);
     return adder_.add(std::move(left), std::move(right));
   }
-  if (of_right == own) transfer_->send(right, of_left);
+  if (of_right == own) transfer_.send(right, of_left);
   return {};
 }
 

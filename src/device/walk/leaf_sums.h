@@ -18,9 +18,9 @@ class LeafSums {
  public:
   using DrawLeaf = std::function<SplatLight(std::size_t leaf)>;
 
-  // `ranks` and `transfer` are null where there is one process. All of them outlive it.
-  LeafSums(const StageContext& context, std::size_t leaves, const FrameRanks* ranks,
-           const LightTransfer* transfer);
+  // All of them outlive it.
+  LeafSums(const StageContext& context, std::size_t leaves, const FrameRanks& ranks,
+           const LightTransfer& transfer);
 
   std::size_t own_leaves() const { return own_.end - own_.first; }
   // This rank's leaves, one after the other, joined as far as that goes. Of few nodes at a time the
@@ -41,8 +41,8 @@ class LeafSums {
 
   const LightAdder adder_;
   const std::size_t leaves_;
-  const FrameRanks* ranks_;
-  const LightTransfer* transfer_;
+  const FrameRanks& ranks_;
+  const LightTransfer& transfer_;
   ChunkRange own_;
   std::map<std::size_t, SplatLight> drawn_;  // of the largest nodes that are this rank's alone
 };

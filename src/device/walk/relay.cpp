@@ -1,0 +1,113 @@
+#include "device/walk/relay.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "device/stages/carry_splats.h"
+
+namespace splotchcl {
+
+Relay::Relay(const StageContext& context, const Projector& projector, const LightTransfer& transfer,
+             FrameRanks& ranks)
+    : context_(context), projector_(projector), transfer_(transfer), ranks_(ranks) {}
+
+int Relay::rank_before() const {
+  return is_first_rank() ? ranks_.size() - 1 : ranks_.rank() - 1;
+}
+
+bool Relay::has_other_before(std::size_t round) const {
+  return ranks_.size() > 1 && (round > 0 || !is_first_rank());
+}
+
+void Relay::pass_splats(const SortedSplats& sorted, std::uint32_t count) {
+  splats_.clear();
+  extended_.clear();
+  if (count > 0) {
+    const KeyedSplats last = projector_.keyed_memory(count);
+    carry_splats(context_, sorted, sorted.count - count, last);
+    const Variant& variant = context_.variant;
+    BufferPool& pool = context_.device.pool;
+    splats_ = pool.download(last.splats.splats, count * variant.splat_bytes());
+    extended_ = pool.download(last.splats.extended, count * variant.extended_splat_bytes());
+  }
+  if (!is_last_rank()) send_splats(ranks_.rank() + 1);
+}
+
+void Relay::send_splats(int to) const {
+  for (const std::vector<std::byte>* bytes : {&splats_, &extended_}) {
+    if (!bytes->empty()) ranks_.all.send(bytes->data(), bytes->size(), to);
+    ranks_.work.sent_bytes += bytes->size();
+  }
+}
+
+void Relay::pass_round(const SplatLight& light, const SlabLight& slab) {
+  if (ranks_.size() == 1 || !is_last_rank()) return;
+  send_splats(0);
+  send(light, slab, 0);
+}
+
+void Relay::take_splats(std::size_t round, const SplatMemory& splats, std::uint32_t count) {
+  if (count == 0) return;
+  const Variant& variant = context_.variant;
+  const auto take = [&](std::vector<std::byte>& bytes, const Buffer<std::byte>& to,
+                        std::size_t splat_bytes) {
+    if (has_other_before(round)) {
+      bytes.resize(count * splat_bytes);
+      if (!bytes.empty()) ranks_.all.receive(bytes.data(), bytes.size(), rank_before());
+    }
+    context_.device.pool.write(to, 0, bytes.data(), bytes.size());
+  };
+  take(splats_, splats.splats, variant.splat_bytes());
+  take(extended_, splats.extended, variant.extended_splat_bytes());
+}
+
+void Relay::send(const SplatLight& light, const SlabLight& slab, int to) const {
+  transfer_.send(light, to);
+  if (context_.plan.slabs > 0) transfer_.send(slab, to);
+}
+
+SplatLight Relay::receive(const SlabLight& slab, int from) const {
+  SplatLight light = transfer_.receive(from);
+  if (context_.plan.slabs > 0) transfer_.receive(slab, from);
+  return light;
+}
+
+void Relay::send_on(const SplatLight& light, const SlabLight& slab) const {
+  if (!is_last_rank()) send(light, slab, ranks_.rank() + 1);
+}
+
+SplatLight Relay::receive_light(const SlabLight& slab) const {
+  return receive(slab, rank_before());
+}
+
+SplatLight Relay::bring_home(SplatLight light, const SlabLight& slab) const {
+  if (ranks_.size() == 1) return light;
+  if (is_last_rank()) send(light, slab, 0);
+  return is_first_rank() ? receive(slab, ranks_.size() - 1) : std::move(light);
+}
+
+std::vector<TileBand> relay_bands(const PictureLayout& layout, int ranks) {
+  const shared::Grid& grid = layout.grids.front();
+  const auto across = static_cast<std::uint32_t>(grid.tiles_x);
+  const auto rows = static_cast<std::uint32_t>(grid.tiles_y);
+  const std::uint32_t bands = std::min(rows, 2 * static_cast<std::uint32_t>(ranks));
+  std::vector<TileBand> cut;
+  for (std::uint32_t band = 0; band < bands; ++band) {
+    const auto row_of = [&](std::uint32_t border) {
+      return static_cast<std::uint32_t>(std::uint64_t{rows} * border / bands);
+    };
+    cut.push_back({row_of(band) * across, row_of(band + 1) * across});
+  }
+  return cut;
+}
+
+std::vector<TileBand> parts_in(const TileBand& whole, const std::vector<TileBand>& bands) {
+  std::vector<TileBand> parts;
+  for (const TileBand& band : bands) {
+    const TileBand part = {std::max(whole.first, band.first), std::min(whole.end, band.end)};
+    if (part.first < part.end) parts.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,207 @@
+#include "device/walk/splat_slices.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "device/frame/splat_capacity.h"
+#include "device/ranks/rank_share.h"
+#include "device/ranks/splat_packets.h"
+#include "device/stages/project_parameters.h"
+#include "ranks/values.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+
+std::uint64_t splat_capacity(const StageContext& context) {
+  return splat_capacity(context.plan, context.variant, context.layout, context.device.traits,
+                        context.device.memory.total);
+}
+
+KeyedSplats project_whole(const StageContext& context, const Projector& projector,
+                          ParticleStore& particles) {
+  std::vector<ParticleBuffers> buffers;
+  for (std::uint32_t c = 0; c < context.frame.components.size(); ++c) {
+    const ParticleChunk all = {c, 0, context.frame.components[c].particles.count};
+    buffers.push_back(particles_in_view(context, particles, all));
+  }
+  return projector.project_all(buffers);
+}
+
+SplatSlices::SplatSlices(const StageContext& context, const Projector& projector,
+                         ParticleStore& particles, FrameRanks& ranks)
+    : context_(context),
+      projector_(projector),
+      particles_(particles),
+      ranks_(ranks),
+      counter_(context, projector, particles,
+               particles_of_rank(context.frame, context.device.traits, ranks.rank(), ranks.size())),
+      chunks_of_ranks_(gather_values(ranks.all, counter_.chunks().size())) {
+  first_chunk_ = std::accumulate(chunks_of_ranks_.begin(), chunks_of_ranks_.begin() + ranks.rank(),
+                                 std::uint64_t{0});
+  for (const ParticleChunk& chunk : counter_.chunks())
+    ranks.work.particles += chunk.count();
+}
+
+void SplatSlices::find() {
+  if (ranks_.size() == 1 && has_room_for_all()) {
+    find_whole();
+  } else {
+    count_keys();
+  }
+}
+
+bool SplatSlices::has_room_for_all() const {
+  for (const DrawnComponent& component : context_.frame.components) {
+    if (!particles_.are_whole(component.particles)) return false;
+  }
+  return splat_slots(context_.frame, context_.plan, context_.device.traits) <=
+         splat_capacity(context_);
+}
+
+void SplatSlices::find_whole() {
+  whole_ = project_whole(context_, projector_, particles_);
+  counts_ = whole_.particles;
+  blocks_around_ = whole_.particles.chunks_around;
+  own_around_ = counts_.around;
+  left_out_ = whole_.left_out;
+  slices_ = {{{0, 0}, {end_of_keys, 0}, 0, counts_.visible}};
+}
+
+void SplatSlices::count_keys() {
+  const CountedKeys counted = count_everywhere({}, shift_of_all_keys);
+  counts_ = counter_.particles();
+  own_around_ = counts_.around;
+  blocks_around_ = all_blocks(counter_.chunks(), context_.device.traits);
+  left_out_ = counter_.left_out();
+  add_up(ranks_.all,
+         {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around, &left_out_});
+  if (counts_.too_sharp > 0) return;
+  capacity_ = smallest_of(ranks_.all, splat_capacity(context_));
+  slices_ = cut_in_slices(
+      counted, static_cast<std::size_t>(ranks_.size()), capacity_,
+      [this](const KeyWindow& window, int shift) { return count_everywhere(window, shift); },
+      [this](const KeyWindow& window) { return count_chunks(window); });
+}
+
+CountedKeys SplatSlices::count_everywhere(const KeyWindow& window, int shift) {
+  CountedKeys counted = counter_.count(window, shift);
+  ranks_.all.add_up(counted.bins);
+  return counted;
+}
+
+std::vector<std::uint64_t> SplatSlices::count_chunks(const KeyWindow& window) {
+  std::vector<std::uint64_t> counts(static_cast<std::size_t>(
+      std::accumulate(chunks_of_ranks_.begin(), chunks_of_ranks_.end(), std::uint64_t{0})));
+  for (std::size_t c = 0; c < counter_.chunks().size(); ++c)
+    counts[static_cast<std::size_t>(first_chunk_) + c] = counter_.count_in_chunk(c, window);
+  ranks_.all.add_up(counts);
+  return counts;
+}
+
+bool SplatSlices::has_room_for_copies() const {
+  return rounds() == 1 && std::all_of(slices_.begin(), slices_.end(), [&](const KeySlice& slice) {
+           return 2 * slice.splats <= capacity_;
+         });
+}
+
+std::size_t SplatSlices::number_of_slice(std::size_t round) const {
+  return round * static_cast<std::size_t>(ranks_.size()) + static_cast<std::size_t>(ranks_.rank());
+}
+
+KeyedSplats SplatSlices::take(std::size_t round, std::uint32_t carried, std::uint32_t more) {
+  const KeySlice& own = slices_[number_of_slice(round)];
+  if (is_whole()) return std::move(whole_);
+  KeyedSplats keyed = memory_for(own, carried, more);
+  if (ranks_.size() == 1) {
+    project(own, keyed, carried);
+  } else {
+    exchange(round, keyed, carried);
+  }
+  return keyed;
+}
+
+// Those that are carried come first, in an order that is theirs already.
+KeyedSplats SplatSlices::memory_for(const KeySlice& own, std::uint32_t carried,
+                                    std::uint32_t more) const {
+  const std::uint32_t count = carried + static_cast<std::uint32_t>(own.splats);
+  KeyedSplats keyed = projector_.keyed_memory(count + more);
+  keyed.count = count;
+  BufferPool& pool = context_.device.pool;
+  std::vector<std::uint32_t> order(carried);
+  std::iota(order.begin(), order.end(), 0u);
+  pool.write(keyed.order, 0, order.data(), carried);
+  pool.write(keyed.keys, 0, std::vector<std::uint32_t>(carried).data(), carried);
+  if (keyed.key_ends.size() > 0)
+    pool.write(keyed.key_ends, 0, std::vector<std::uint16_t>(carried).data(), carried);
+  return keyed;
+}
+
+void SplatSlices::project(const KeySlice& own, KeyedSplats& keyed, std::uint32_t first_slot) const {
+  std::uint32_t slot = first_slot;
+  for (std::size_t c = 0; c < counter_.chunks().size(); ++c) {
+    const KeyWindow window = window_of_chunk(own, c);
+    if (window.first >= window.end || !counter_.has_keys_in(c, window)) continue;
+    slot += projector_.project_window(counter_.chunks()[c], counter_.particles_of(c), window,
+                                      counter_.blocks_without(c, window), keyed, slot);
+  }
+  check(slot - first_slot, own.splats);
+}
+
+// One of this rank's chunks, projected: a packet for each rank.
+std::vector<Communicator::Bytes> SplatSlices::share_out(std::size_t round, std::size_t chunk) {
+  const auto ranks = static_cast<std::size_t>(ranks_.size());
+  const KeySlice* const slices = slices_.data() + round * ranks;
+  const KeyWindow keys = window_of(slices, ranks);
+  if (chunk >= counter_.chunks().size() || !counter_.has_keys_in(chunk, keys))
+    return std::vector<Communicator::Bytes>(ranks);
+  const KeyedSplats keyed =
+      projector_.keyed_memory(static_cast<std::uint32_t>(counter_.most_splats_of(chunk)));
+  const std::uint32_t count =
+      projector_.project_window(counter_.chunks()[chunk], counter_.particles_of(chunk), keys,
+                                counter_.blocks_without(chunk, keys), keyed, 0);
+  const HostSplats splats = download_splats(context_, keyed, count);
+  std::vector<std::uint32_t> places(count);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const SplatPlace place = {splats.key(i), first_chunk_ + chunk};
+    places[i] = static_cast<std::uint32_t>(slice_of(place, slices, ranks));
+  }
+  return pack(context_, splats, places, ranks);
+}
+
+// Splats come by ranks, and by chunks of each: in the order of their particles.
+void SplatSlices::exchange(std::size_t round, const KeyedSplats& keyed, std::uint32_t first_slot) {
+  const auto ranks = static_cast<std::size_t>(ranks_.size());
+  const std::uint64_t steps = *std::max_element(chunks_of_ranks_.begin(), chunks_of_ranks_.end());
+  std::vector<std::vector<Communicator::Bytes>> received(ranks);
+  for (std::size_t step = 0; step < steps; ++step) {
+    std::vector<Communicator::Bytes> packets = share_out(round, step);
+    for (std::size_t r = 0; r < ranks; ++r) {
+      if (r != static_cast<std::size_t>(ranks_.rank())) ranks_.work.sent_bytes += packets[r].size();
+    }
+    packets = ranks_.all.exchange(std::move(packets));
+    for (std::size_t r = 0; r < ranks; ++r)
+      received[r].push_back(std::move(packets[r]));
+  }
+  std::uint64_t slot = first_slot;
+  for (std::vector<Communicator::Bytes>& of_rank : received) {
+    for (Communicator::Bytes& packet : of_rank) {
+      const std::uint64_t count = splats_in(packet);
+      if (slot + count <= keyed.count) unpack(context_, packet, keyed, slot);
+      slot += count;
+      packet = {};
+    }
+  }
+  check(slot - first_slot, keyed.count - first_slot);
+}
+
+void SplatSlices::check(std::uint64_t found, std::uint64_t counted) const {
+  if (found == counted) return;
+  throw DeviceError("device " + context_.device.device.name() + ": counted " +
+                    std::to_string(counted) + " splats of a slice and was given " +
+                    std::to_string(found) +
+                    ": use the same device and the same version everywhere");
+}
+
+}  // namespace splotchcl
