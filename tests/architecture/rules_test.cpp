@@ -236,8 +236,8 @@ std::set<std::string> macros_of(const std::vector<std::string>& conditions) {
 TEST(Shape, KernelsAreNoMoreBranchedThanTheyWere) {
   const std::vector<std::string> conditions = conditions_of_kernels();
   EXPECT_GT(conditions.size(), 100u);  // they were found
-  EXPECT_LE(conditions.size(), 477u);
-  EXPECT_LE(macros_of(conditions).size(), 62u);
+  EXPECT_LE(conditions.size(), 226u);
+  EXPECT_LE(macros_of(conditions).size(), 32u);
 }
 
 }  // namespace
