@@ -459,7 +459,7 @@ const std::vector<TrialClass>& all_classes() {
        slabs},
       {"chosen_slabs",
        "the same of so many that the plan chooses slabs",
-       {Light::ordered, Light::gray},
+       {Light::ordered},
        {1e-3, 1e-2},
        chosen_slabs},
       {"two_sources",
