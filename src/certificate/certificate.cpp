@@ -25,8 +25,9 @@ constexpr double least_of_peaks = 0.3;
 constexpr double least_of_slabs = 0.3, most_times_slabs = 100;
 // and by so much more than what was found to be missing.
 constexpr double margin = 1.5;
-// What is promised of extended precision leaves so much to them.
-constexpr double colors_of_extended = 0.3 * extended_tolerance;
+// What pixels err by in extended precision, and what lies behind depths of 1 each
+// (docs/dev/accuracy.md, "Tolerance 0").
+constexpr double of_extended = 7e-7, of_extended_depth = 6e-8;
 // What colors may do before all of a picture's numbers get more digits.
 constexpr double most_of_colors = 0.5;
 // What is left for ends, at least, where nothing makes peaks smaller.
@@ -258,15 +259,16 @@ Certificate certify_extended(const CollectedSplats& splats, const Image& image, 
   const double promise = std::max(frame.tolerance, extended_tolerance);
   Certificate certificate = even_certificate(image, extended_tolerance, promise);
   const double part = part_of_colors(frame, plan);
-  if (part == 0) return certificate;
+  if (part == 0 && !plan.needs_sort()) return certificate;
   const PictureLight picture = measure_light(image, splats.depths, frame, plan);
   const ColorLight colors(image, splats.depths, frame, plan);
-  std::vector<float>& errors = certificate.blocks.errors;
-  for (std::size_t b = 0; b < errors.size(); ++b) {
-    const double of_colors = part * colors.in_block(b, picture.blocks[b].behind);
-    errors[b] += static_cast<float>(std::max(0.0, of_colors - colors_of_extended));
-    const double error = static_cast<double>(errors[b]) / promise;
-    if (error > certificate.error_of_promise) certificate.error_of_promise = error;
+  for (std::size_t b = 0; b < picture.blocks.size(); ++b) {
+    const double behind = picture.blocks[b].behind;
+    const double of_colors = part > 0 ? part * colors.in_block(b, behind) : 0;
+    const double error =
+        std::max(extended_tolerance, of_extended + of_extended_depth * behind + of_colors);
+    certificate.blocks.errors[b] = static_cast<float>(error);
+    certificate.error_of_promise = std::max(certificate.error_of_promise, error / promise);
   }
   certificate.worst.rest = certificate.error_of_promise;
   return certificate;
