@@ -82,7 +82,7 @@ class FrameErrors {
         rest_(error_of_all_pixels(splats, plan)),
         part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0),
         colors_(image, splats.depths, frame, plan),
-        part_of_colors_(part_of_colors(frame, plan)),
+        light_behind_(plan.light_behind),
         part_of_layers_(plan.needs_sort() ? plan.layers.part : 0),
         slabs_(plan.slabs),
         of_slabs_(splats.of_slabs) {
@@ -110,7 +110,7 @@ class FrameErrors {
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
-    sums.rest = of_colors(block) +
+    sums.rest = of_colors(block, pixels) +
                 (rest_ + part_of_all_ * light.parts + part_of_layers_ * light.layers) / promise_;
     double light_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
@@ -141,10 +141,17 @@ class FrameErrors {
   }
 
   // What nothing but more digits of colors makes smaller.
+  double of_colors(std::size_t block, const PixelBlock& pixels) const {
+    if (colors_.are_exact()) return 0;
+    double light = 0;
+    for (const OctaveErrors& octave : octaves_)
+      light += octave.light(pixels);
+    const double negligible = negligible_part * promise_;
+    return colors_.in_block(block, picture_.blocks[block], light / light_behind_, negligible) /
+           promise_;
+  }
   double of_colors(std::size_t block) const {
-    if (part_of_colors_ == 0) return 0;
-    const double layers = picture_.blocks[block].behind;
-    return part_of_colors_ * colors_.in_block(block, layers) / promise_;
+    return of_colors(block, pixels_of_block(block, picture_.columns));
   }
 
   std::vector<Part> parts() const { return std::vector<Part>(octaves_.size()); }
@@ -212,7 +219,7 @@ class FrameErrors {
   bool is_bound_, is_cut_;
   double promise_, rest_, part_of_all_;
   ColorLight colors_;
-  double part_of_colors_, part_of_layers_;
+  double light_behind_, part_of_layers_;
   int slabs_;
   const std::vector<float>& of_slabs_;
   std::array<double, width_octaves> lights_{};  // that splats counted as
@@ -223,8 +230,13 @@ class FrameErrors {
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan) {
   constexpr std::size_t blocks_at_once = 256;
-  if (!plan.has_errors_of_splats && !plan.needs_sort() && part_of_colors(frame, plan) == 0)
-    return even_certificate(image, error_of_all_pixels(splats, plan), plan.shares.promise);
+  if (!plan.has_errors_of_splats && !plan.needs_sort()) {
+    const ColorLight colors(image, splats.depths, frame, plan);
+    const double of_colors = colors.are_exact() ? 0 : negligible_part * plan.shares.promise;
+    const double error = error_of_all_pixels(splats, plan);
+    if (colors.are_within(of_colors))
+      return even_certificate(image, error + of_colors, plan.shares.promise);
+  }
   const FrameErrors errors(splats, image, frame, plan);
   std::vector<ErrorParts> blocks(errors.block_count());
   for_blocks(blocks.size(), blocks_at_once, [&](std::size_t first, std::size_t last) {
@@ -258,15 +270,14 @@ Certificate certify_extended(const CollectedSplats& splats, const Image& image, 
                              const FramePlan& plan) {
   const double promise = std::max(frame.tolerance, extended_tolerance);
   Certificate certificate = even_certificate(image, extended_tolerance, promise);
-  const double part = part_of_colors(frame, plan);
-  if (part == 0 && !plan.needs_sort()) return certificate;
-  const PictureLight picture = measure_light(image, splats.depths, frame, plan);
   const ColorLight colors(image, splats.depths, frame, plan);
+  if (colors.are_exact() && !plan.needs_sort()) return certificate;
+  const PictureLight picture = measure_light(image, splats.depths, frame, plan);
   for (std::size_t b = 0; b < picture.blocks.size(); ++b) {
-    const double behind = picture.blocks[b].behind;
-    const double of_colors = part > 0 ? part * colors.in_block(b, behind) : 0;
+    const BlockLight& light = picture.blocks[b];
+    const double of_colors = colors.in_block(b, light, 0, 0);
     const double error =
-        std::max(extended_tolerance, of_extended + of_extended_depth * behind + of_colors);
+        std::max(extended_tolerance, of_extended + of_extended_depth * light.behind + of_colors);
     certificate.blocks.errors[b] = static_cast<float>(error);
     certificate.error_of_promise = std::max(certificate.error_of_promise, error / promise);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "scene/scalar_map.h"
@@ -42,45 +43,60 @@ double largest_channel(const Rgb& color) {
   return static_cast<double>(std::max({color[0], color[1], color[2]}));
 }
 
-// Between the two knots where it is most: in parts of the brightest channel, halfway to the
-// brighter knot.
-double part_of_knots(const std::vector<Rgb>& knots, const PlaceError& place) {
+void take_largest(const ColorParts& parts, ColorParts& largest) {
+  largest.of_brightest = std::max(largest.of_brightest, parts.of_brightest);
+  largest.of_itself = std::max(largest.of_itself, parts.of_itself);
+}
+
+// Of a channel between knot k - 1 and knot k of `steps`, whose brightest channel is as bright
+// halfway to the brighter knot.
+ColorParts parts_between(float before, float behind, double brightest, double k, double steps,
+                         const PlaceError& place) {
+  const double change = static_cast<double>(std::abs(behind - before));
+  if (change == 0) return {};
+  const double moved = change * (place.of_itself * k + place.of_range * steps);
+  const double least = static_cast<double>(std::min(before, behind));
+  // From no light on it grows as its place does.
+  if (before == 0 && k == 1 && place.of_range == 0) return {moved / brightest, place.of_itself};
+  return {moved / brightest, least > 0 ? moved / least : std::numeric_limits<double>::infinity()};
+}
+
+ColorParts parts_of_knots(const std::vector<Rgb>& knots, const PlaceError& place) {
   const auto steps = static_cast<double>(std::max<std::size_t>(knots.size(), 1) - 1);
-  double largest = 0;
+  ColorParts largest;
   for (std::size_t k = 1; k < knots.size(); ++k) {
-    double change = 0;
+    const Rgb &before = knots[k - 1], &behind = knots[k];
+    const double brightest = 0.5 * std::max(largest_channel(before), largest_channel(behind));
     for (std::size_t c = 0; c < 3; ++c)
-      change = std::max(change, static_cast<double>(std::abs(knots[k][c] - knots[k - 1][c])));
-    if (change == 0) continue;
-    const double brighter = std::max(largest_channel(knots[k - 1]), largest_channel(knots[k]));
-    const double farthest = static_cast<double>(k) / steps;
-    const double moved = steps * (place.of_itself * farthest + place.of_range);
-    largest = std::max(largest, change * moved / (0.5 * brighter));
+      take_largest(
+          parts_between(before[c], behind[c], brightest, static_cast<double>(k), steps, place),
+          largest);
   }
   return largest;
 }
 
-double part_of(const DrawnComponent& component, const FieldRoundings& roundings) {
-  double part = 0;
+ColorParts parts_of(const DrawnComponent& component, const FieldRoundings& roundings) {
+  ColorParts parts;
   if (!component.particles.color.is_absent()) {
     const PlaceError place = error_of_place(component.color, roundings);
-    part = std::max(part_of_knots(component.palette.emission, place),
-                    part_of_knots(component.palette.absorption, place));
+    take_largest(parts_of_knots(component.palette.emission, place), parts);
+    take_largest(parts_of_knots(component.palette.absorption, place), parts);
   }
   if (!component.particles.intensity.is_absent()) {
     const PlaceError place = error_of_place(component.intensity, roundings);
-    part += 2 * (place.of_itself + place.of_range);
+    parts.of_brightest += 2 * (place.of_itself + place.of_range);
+    parts.of_itself += 2 * (place.of_itself + place.of_range);
   }
-  return part;
+  return parts;
 }
 
 }  // namespace
 
-double part_of_colors(const Frame& frame, const FramePlan& plan) {
+ColorParts parts_of_colors(const Frame& frame, const FramePlan& plan) {
   const FieldRoundings roundings = roundings_of(plan);
-  double largest = 0;
+  ColorParts largest;
   for (const DrawnComponent& component : frame.components)
-    largest = std::max(largest, part_of(component, roundings));
+    take_largest(parts_of(component, roundings), largest);
   return largest;
 }
 

@@ -140,6 +140,7 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around, const
     block.layers = std::max(block.layers, response.layers);
     block.behind = std::max(block.behind, response.behind);
     block.relative = std::max(block.relative, response.relative);
+    block.most = std::max(block.most, ranges.channels[c].most);
     least = std::min(least, ranges.channels[c].least);
   }
   block.allowed = std::max(1.0, least);

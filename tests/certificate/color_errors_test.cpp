@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "reference/frames.h"
 
 namespace splotchcl::test {
@@ -16,6 +18,10 @@ Frame star_among(const std::vector<Rgb>& knots, const ScalarMap& range) {
   return frame_of(10, 10, {component});
 }
 
+double of_brightest(const Frame& frame, const FramePlan& plan) {
+  return parts_of_colors(frame, plan).of_brightest;
+}
+
 FramePlan certified(const Frame& frame) {
   PlanOptions options;
   options.certify = true;
@@ -24,12 +30,12 @@ FramePlan certified(const Frame& frame) {
 
 double part_of_range(Scaling scaling, double minimum, double maximum) {
   const Frame frame = star_among({{1, 0, 0}, {0, 0, 1}}, {scaling, minimum, maximum});
-  return part_of_colors(frame, certified(frame));
+  return of_brightest(frame, certified(frame));
 }
 
 double part_of_knots(const std::vector<Rgb>& knots) {
   const Frame frame = star_among(knots, {Scaling::linear, 0, 1});
-  return part_of_colors(frame, certified(frame));
+  return of_brightest(frame, certified(frame));
 }
 
 TEST(ColorErrors, DoNotFollowTheRange) {
@@ -52,9 +58,19 @@ TEST(ColorErrors, GrowWithTheNumberOfTimesThatColorsChange) {
 TEST(ColorErrors, OfAFastPictureAreLessThanItsBoundAndMoreThanOfAnExtendedOne) {
   const Frame frame = star_among({{1, 0, 0}, {0, 0, 1}}, {Scaling::log, 1, 8});
   const FramePlan plan = make_plan(frame);
-  const double part = part_of_colors(frame, plan);
-  EXPECT_LT(part, part_of_colors(frame, certified(frame)));
-  EXPECT_GT(part, 1000 * part_of_colors(frame, extend_plan(frame, plan)));
+  const double part = of_brightest(frame, plan);
+  EXPECT_LT(part, of_brightest(frame, certified(frame)));
+  EXPECT_GT(part, 1000 * of_brightest(frame, extend_plan(frame, plan)));
+}
+
+TEST(ColorErrors, AreThoseOfTheChannelItselfWhereItIsNeverDark) {
+  const auto of_itself = [](const std::vector<Rgb>& knots) {
+    const Frame frame = star_among(knots, {Scaling::linear, 0, 1});
+    return parts_of_colors(frame, make_plan(frame)).of_itself;
+  };
+  EXPECT_LT(of_itself({{1, 0.5f, 0.1f}, {0.5f, 1, 0.2f}}), 1e-6);
+  EXPECT_LT(of_itself({{0, 0, 0}, {0.5f, 1, 0.2f}}), 1e-6) << "it grows from nothing";
+  EXPECT_EQ(of_itself({{1, 0, 0}, {0, 0, 1}}), std::numeric_limits<double>::infinity());
 }
 
 TEST(ColorErrors, AreNoneOfAPaletteOfOneColor) {
