@@ -24,8 +24,8 @@ struct FieldRoundings {
 };
 
 FieldRoundings roundings_of(const FramePlan& plan) {
-  // Of numbers of 45 bits, and of their logarithms.
-  if (plan.is_extended()) return {3e-10, 3e-11, 0x1p-42};
+  // Of numbers of 45 bits, and of their logarithms; asinh errs by three times as much.
+  if (plan.is_extended()) return {1e-10, 3e-11, 0x1p-42};
   if (plan.certify) return {24 * rounding, 4 * rounding, 4 * rounding};
   return {6 * rounding, 2 * rounding, 2 * rounding};
 }
@@ -34,7 +34,8 @@ PlaceError error_of_place(const ScalarMap& map, const FieldRoundings& roundings)
   const double range = std::abs(map.maximum - map.minimum);
   if (range == 0) return {};
   if (map.scaling == Scaling::linear) return {roundings.of_difference, 0};
-  if (least_before_scaling(map)) return {roundings.from_least, 0};
+  if (least_before_scaling(map))
+    return {(map.scaling == Scaling::asinh ? 3 : 1) * roundings.from_least, 0};
   const double largest = std::max({1.0, std::abs(map.minimum), std::abs(map.maximum)});
   return {roundings.of_difference, roundings.of_function * largest / range};
 }
@@ -48,8 +49,26 @@ void take_largest(const ColorParts& parts, ColorParts& largest) {
   largest.of_itself = std::max(largest.of_itself, parts.of_itself);
 }
 
-// Of a channel between knot k - 1 and knot k of `steps`, whose brightest channel is as bright
-// halfway to the brighter knot.
+// The brightest channel where it is faintest between two knots: at one of them, or where it becomes
+// another one.
+double faintest_between(const Rgb& before, const Rgb& behind) {
+  double least = std::min(largest_channel(before), largest_channel(behind));
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t other = (c + 1) % 3;
+    const auto apart = static_cast<double>(before[c] - before[other]);
+    const double closer = apart - static_cast<double>(behind[c] - behind[other]);
+    const double way = closer != 0 ? apart / closer : -1;
+    if (way <= 0 || way >= 1) continue;
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      most = std::max(
+          most, (1 - way) * static_cast<double>(before[i]) + way * static_cast<double>(behind[i]));
+    least = std::min(least, most);
+  }
+  return least;
+}
+
+// Of a channel between knot k - 1 and knot k of `steps`, where the brightest one is as bright.
 ColorParts parts_between(float before, float behind, double brightest, double k, double steps,
                          const PlaceError& place) {
   const double change = static_cast<double>(std::abs(behind - before));
@@ -66,7 +85,8 @@ ColorParts parts_of_knots(const std::vector<Rgb>& knots, const PlaceError& place
   ColorParts largest;
   for (std::size_t k = 1; k < knots.size(); ++k) {
     const Rgb &before = knots[k - 1], &behind = knots[k];
-    const double brightest = 0.5 * std::max(largest_channel(before), largest_channel(behind));
+    const double halfway = 0.5 * std::max(largest_channel(before), largest_channel(behind));
+    const double brightest = std::max(halfway, faintest_between(before, behind));
     for (std::size_t c = 0; c < 3; ++c)
       take_largest(
           parts_between(before[c], behind[c], brightest, static_cast<double>(k), steps, place),

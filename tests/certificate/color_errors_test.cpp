@@ -73,6 +73,12 @@ TEST(ColorErrors, AreThoseOfTheChannelItselfWhereItIsNeverDark) {
   EXPECT_EQ(of_itself({{1, 0, 0}, {0, 0, 1}}), std::numeric_limits<double>::infinity());
 }
 
+TEST(ColorErrors, CountByTheBrightestChannelWhereItIsFaintest) {
+  const double halfway = part_of_knots({{1, 0, 0}, {0, 0, 1}});
+  EXPECT_NEAR(part_of_knots({{1, 0, 0}, {1, 0, 1}}), 0.5 * halfway, 1e-12);
+  EXPECT_NEAR(part_of_knots({{0, 0, 0}, {0, 0, 1}}), halfway, 1e-12);
+}
+
 TEST(ColorErrors, AreNoneOfAPaletteOfOneColor) {
   EXPECT_EQ(part_of_knots({{1, 0.5f, 0}}), 0);
   EXPECT_EQ(part_of_knots({{1, 0.5f, 0}, {1, 0.5f, 0}}), 0);
