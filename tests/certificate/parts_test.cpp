@@ -1,8 +1,7 @@
-#include "certificate/crowd_cells.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 #include <utility>
@@ -10,6 +9,7 @@
 
 #include "certificate/block_sums.h"
 #include "certificate/color_errors.h"
+#include "certificate/crowd_cells.h"
 #include "reference/frames.h"
 
 namespace splotchcl::test {
@@ -173,6 +173,10 @@ Frame star_among(const std::vector<Rgb>& knots, const ScalarMap& range) {
   return frame_of(10, 10, {component});
 }
 
+double of_brightest(const Frame& frame, const FramePlan& plan) {
+  return parts_of_colors(frame, plan).of_brightest;
+}
+
 FramePlan certified(const Frame& frame) {
   PlanOptions options;
   options.certify = true;
@@ -181,12 +185,12 @@ FramePlan certified(const Frame& frame) {
 
 double part_of_range(Scaling scaling, double minimum, double maximum) {
   const Frame frame = star_among({{1, 0, 0}, {0, 0, 1}}, {scaling, minimum, maximum});
-  return part_of_colors(frame, certified(frame));
+  return of_brightest(frame, certified(frame));
 }
 
 double part_of_knots(const std::vector<Rgb>& knots) {
   const Frame frame = star_among(knots, {Scaling::linear, 0, 1});
-  return part_of_colors(frame, certified(frame));
+  return of_brightest(frame, certified(frame));
 }
 
 TEST(ColorErrors, DoNotFollowTheRange) {
@@ -209,9 +213,25 @@ TEST(ColorErrors, GrowWithTheNumberOfTimesThatColorsChange) {
 TEST(ColorErrors, OfAFastPictureAreLessThanItsBoundAndMoreThanOfAnExtendedOne) {
   const Frame frame = star_among({{1, 0, 0}, {0, 0, 1}}, {Scaling::log, 1, 8});
   const FramePlan plan = make_plan(frame);
-  const double part = part_of_colors(frame, plan);
-  EXPECT_LT(part, part_of_colors(frame, certified(frame)));
-  EXPECT_GT(part, 1000 * part_of_colors(frame, extend_plan(frame, plan)));
+  const double part = of_brightest(frame, plan);
+  EXPECT_LT(part, of_brightest(frame, certified(frame)));
+  EXPECT_GT(part, 1000 * of_brightest(frame, extend_plan(frame, plan)));
+}
+
+TEST(ColorErrors, AreThoseOfTheChannelItselfWhereItIsNeverDark) {
+  const auto of_itself = [](const std::vector<Rgb>& knots) {
+    const Frame frame = star_among(knots, {Scaling::linear, 0, 1});
+    return parts_of_colors(frame, make_plan(frame)).of_itself;
+  };
+  EXPECT_LT(of_itself({{1, 0.5f, 0.1f}, {0.5f, 1, 0.2f}}), 1e-6);
+  EXPECT_LT(of_itself({{0, 0, 0}, {0.5f, 1, 0.2f}}), 1e-6) << "it grows from nothing";
+  EXPECT_EQ(of_itself({{1, 0, 0}, {0, 0, 1}}), std::numeric_limits<double>::infinity());
+}
+
+TEST(ColorErrors, CountByTheBrightestChannelWhereItIsFaintest) {
+  const double halfway = part_of_knots({{1, 0, 0}, {0, 0, 1}});
+  EXPECT_NEAR(part_of_knots({{1, 0, 0}, {1, 0, 1}}), 0.5 * halfway, 1e-12);
+  EXPECT_NEAR(part_of_knots({{0, 0, 0}, {0, 0, 1}}), halfway, 1e-12);
 }
 
 TEST(ColorErrors, AreNoneOfAPaletteOfOneColor) {
