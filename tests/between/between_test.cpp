@@ -10,7 +10,7 @@
 #include <random>
 
 #include "between/id_match.h"
-#include "between/interpolated_column.h"
+#include "between/interpolation.h"
 #include "device/frame/particle_store.h"
 #include "splotchcl/particles.h"
 

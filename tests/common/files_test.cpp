@@ -1,5 +1,3 @@
-#include "common/output_files.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/prctl.h>
@@ -8,8 +6,9 @@
 #include <fstream>
 
 #include "common/mapped_file.h"
+#include "common/output_files.h"
 #include "common/unfinished_file.h"
-#include "common/writing_process.h"
+#include "common/unfinished_name.h"
 #include "splotchcl/error.h"
 #include "temporary_folder.h"
 

@@ -1,14 +1,12 @@
-#include "finish/cross_fade.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 
-#include "finish/fade.h"
 #include "finish/finish_picture.h"
 #include "finish/finish_pictures.h"
+#include "finish/joined_pictures.h"
 #include "pictures/other_scenes.h"
 #include "splotchcl/error.h"
 #include "splotchcl/generate.h"

@@ -1,5 +1,3 @@
-#include "image/text.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,12 +5,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "finish/canvas.h"
 #include "finish/finish_pictures.h"
-#include "finish/layout.h"
+#include "finish/overlay.h"
 #include "finish/placeholders.h"
-#include "finish/text_style.h"
 #include "finish/ticks.h"
+#include "image/text.h"
 #include "paths.h"
 #include "scene/scalar_map.h"
 #include "splotchcl/error.h"

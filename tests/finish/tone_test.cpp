@@ -7,9 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "finish/adjust_light.h"
 #include "finish/finish_pictures.h"
-#include "finish/tone_levels.h"
 
 namespace splotchcl::test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "formats/position_origin.h"
 #include "formats/snapshot_writer.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "galaxy/dust_law.h"
+#include "galaxy/dust_map.h"
 #include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
 #include "snapshot/field_names.h"

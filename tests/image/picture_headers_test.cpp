@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "image/color_profile.h"
+#include "image/picture_encoders.h"
 #include "image/png_chunks.h"
-#include "image/png_strips.h"
+#include "image/png_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "temporary_folder.h"

@@ -1,5 +1,3 @@
-#include "load/periodic_wrap.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "load/rounded_positions.h"
+#include "load/periodic.h"
+#include "load/placement.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"

@@ -1,14 +1,13 @@
-#include "snapshot/unit.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "map/angular_distance.h"
-#include "map/fits_unit.h"
 #include "map/gas.h"
+#include "map/map_files.h"
 #include "map/map_units.h"
+#include "map/sky.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 #include "splotchcl/map.h"
 

@@ -13,7 +13,6 @@
 #include "parallel/available_memory.h"
 #include "parallel/for_blocks.h"
 #include "parallel/thread_pool.h"
-#include "parallel/thread_seconds.h"
 
 namespace splotchcl::test {
 namespace {

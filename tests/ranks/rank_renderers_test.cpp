@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "device/scenes.h"
-#include "ranks/shared_host.h"
+#include "ranks/mpi_library.h"
 #include "ranks/thread_ranks.h"
 #include "splotchcl/renderer.h"
 

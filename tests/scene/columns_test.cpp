@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "device/counted_column.h"
-#include "scene/picked_particles.h"
-#include "scene/same_columns.h"
+#include "scene/particle_columns.h"
 #include "scene/scalar_map.h"
 #include "scene/statistics.h"
 #include "splotchcl/palette.h"

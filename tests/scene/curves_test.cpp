@@ -1,4 +1,4 @@
-#include "scene/spline.h"
+#include "scene/curves.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "scene/constants.h"
-#include "scene/direction_track.h"
 #include "scene/expect_near.h"
-#include "scene/flight.h"
 
 namespace splotchcl {
 namespace {

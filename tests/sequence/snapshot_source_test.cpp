@@ -10,7 +10,7 @@
 #include "formats/snapshot_writer.h"
 #include "paths.h"
 #include "sequence/interpolated_snapshot.h"
-#include "snapshot/snapshot_list.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"

@@ -1,5 +1,3 @@
-#include "snapshot/field_names.h"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -11,10 +9,10 @@
 
 #include "formats/unit_names.h"
 #include "paths.h"
+#include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"
-#include "snapshot/particle_types.h"
 #include "snapshot/snapshot_files.h"
-#include "snapshot/unit_ratio.h"
+#include "snapshot/unit.h"
 
 namespace splotchcl {
 namespace {

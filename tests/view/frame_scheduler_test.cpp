@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "view/preview_quality.h"
-
 namespace splotchcl::view {
 namespace {
 

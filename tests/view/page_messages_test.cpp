@@ -9,8 +9,7 @@
 
 #include "matches.h"
 #include "splotchcl/error.h"
-#include "view/requests/access.h"
-#include "view/requests/page_files.h"
+#include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 namespace {

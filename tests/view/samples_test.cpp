@@ -8,7 +8,6 @@
 #include "splotchcl/camera.h"
 #include "splotchcl/error.h"
 #include "view/answers.h"
-#include "view/field_histogram.h"
 #include "view/frame_sample.h"
 #include "view/pick.h"
 

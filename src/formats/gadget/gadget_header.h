@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {
@@ -58,5 +61,29 @@ void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::
 
 // Fills what follows from the header: time, redshift, box, h, types with count and mass.
 void describe(const GadgetHeader& header, SnapshotInfo& info);
+
+// The files of the snapshot that `path` belongs to, in order, each as `read` gives it:
+// read(path, notes) returns a Member, which has a header(). Fills in what `info` says of
+// the whole. Throws DataError when they do not belong together.
+template <typename Read>
+auto read_members(const std::filesystem::path& path, Read&& read, SnapshotInfo& info) {
+  std::vector<std::string> notes;
+  // The named file first: what is wrong with it matters more than what is missing beside it.
+  auto named = read(path, notes);
+  info.files = is_complete_alone(named.header()) ? std::vector<std::filesystem::path>{path}
+                                                 : find_members(path, named.header().files);
+  std::vector<decltype(named)> members;
+  std::vector<GadgetHeader> headers;
+  for (const auto& file : info.files) {
+    members.push_back(file == path ? std::move(named) : read(file, notes));
+    headers.push_back(members.back().header());
+  }
+  for (std::string& note : notes) {  // members tend to have the same ones
+    const bool is_new = std::find(info.notes.begin(), info.notes.end(), note) == info.notes.end();
+    if (is_new) info.notes.push_back(std::move(note));
+  }
+  describe(merge_headers(headers, info.files, info.notes), info);
+  return members;
+}
 
 }  // namespace splotchcl

@@ -1,5 +1,7 @@
 #include "formats/hdf5/hdf5_formats.h"
 
+#include <hdf5.h>
+
 #include "formats/snapshot_format.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
@@ -40,6 +42,11 @@ class Hdf5Formats : public SnapshotFormat {
 const SnapshotFormat& hdf5_formats() {
   static const Hdf5Formats formats;
   return formats;
+}
+
+bool can_read_concurrently() {
+  hbool_t is_safe = 0;
+  return H5is_library_threadsafe(&is_safe) >= 0 && is_safe > 0;
 }
 
 }  // namespace splotchcl

@@ -11,8 +11,7 @@
 #include "formats/table.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
-#include "snapshot/particle_types.h"
-#include "snapshot/unit_ratio.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -1,5 +1,3 @@
-#include "film/movie/frame_range.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
