@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -11,10 +13,26 @@
 #include "parallel/available_memory.h"
 #include "parallel/for_blocks.h"
 #include "parallel/thread_pool.h"
-#include "parallel/threads_of_loop.h"
 
 namespace splotchcl::test {
 namespace {
+
+// The threads that so many blocks run on when so many threads are asked for. Blocks end when as
+// many threads are at work as there may be.
+std::set<std::thread::id> threads_of_loop(std::size_t threads, std::size_t blocks) {
+  std::mutex mutex;
+  std::set<std::thread::id> seen;
+  const auto count = [&] {
+    const std::lock_guard lock(mutex);
+    seen.insert(std::this_thread::get_id());
+    return seen.size();
+  };
+  for_blocks_on(threads, blocks, 1, [&](std::size_t, std::size_t) {
+    while (count() < std::min(threads, blocks))
+      std::this_thread::yield();
+  });
+  return seen;
+}
 
 // Threads that wait for loops.
 

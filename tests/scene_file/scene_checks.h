@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "scene_file/keys.h"
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
 
 namespace splotchcl::test {
 
@@ -22,6 +26,17 @@ inline void expect_same(const Scene& a, const Scene& b) {
     for (std::size_t i = 0; i < (is_of_components ? a.components.size() : 1); ++i)
       EXPECT_EQ(key.get(a, i), key.get(b, i)) << key.path << " of component " << i;
   }
+}
+
+// What a user is told about this text and these settings.
+inline std::string message_for(const std::string& text,
+                               const std::vector<std::string>& settings = {}) {
+  try {
+    parse_scene(text, "scene.toml", settings);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "nothing was refused";
 }
 
 }  // namespace splotchcl::test
