@@ -1,5 +1,3 @@
-#include "certificate/crowd_cells.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "certificate/block_sums.h"
 #include "certificate/color_errors.h"
+#include "certificate/crowd_cells.h"
 #include "reference/frames.h"
 
 namespace splotchcl::test {
