@@ -1,5 +1,3 @@
-#include "splotchcl/untrusted_file.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -18,6 +16,7 @@
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/snapshot_file.h"
+#include "splotchcl/untrusted_file.h"
 #include "temporary_folder.h"
 #include "untrusted/child_process.h"
 

@@ -1,5 +1,3 @@
-#include "scene/plan/ordered_guess.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "reference/frames.h"
 #include "scene/plan/brightness_guess.h"
+#include "scene/plan/ordered_guess.h"
 #include "scene/plan/width_guess.h"
 #include "splotchcl/plan.h"
 
