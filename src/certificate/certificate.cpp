@@ -251,7 +251,8 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double error = blocks[b].sum();
     certificate.blocks.errors[b] = static_cast<float>(error * plan.shares.promise);
-    if (error > certificate.error_of_promise) {
+    // What is no number is larger than any.
+    if (!(error <= certificate.error_of_promise)) {
       certificate.error_of_promise = error;
       certificate.worst = blocks[b];
     }

@@ -85,7 +85,8 @@ double ColorLight::of_brightest(const PixelBlock& pixels, double deepest) const 
 double ColorLight::in_block(std::size_t block, const BlockLight& light, double depth,
                             double negligible) const {
   constexpr double unknown = 88, opaque = 10;
-  const double of_itself = parts_.of_itself * light.parts;
+  // Which may be infinite.
+  const double of_itself = light.parts > 0 ? parts_.of_itself * light.parts : 0;
   if (of_itself <= negligible) return of_itself;
   const double deepest = depths_.empty() ? unknown : static_cast<double>(depths_[block]);
   const PixelBlock pixels = pixels_of_block(block, BlockErrors::blocks_along(image_.width));

@@ -334,6 +334,15 @@ TEST_F(ColorsTest, CountByTheBrightestChannelBesideADarkOne) {
   EXPECT_NEAR(error_of(colored_picture(1e5f, 1e5f, 1e5f)), dim, 1e-6) << "nothing is dark";
 }
 
+TEST_F(ColorsTest, HideNothingOfWhatEndsInADarkPicture) {
+  PeakCells cells = empty_cells();
+  at(cells.endings, 10, 10) = static_cast<float>(1.5 * frame_.tolerance / ending());
+  const Certificate certificate = certify_cells(cells);
+  EXPECT_FALSE(certificate.keeps_promise());
+  for (const float error : certificate.blocks.errors)
+    EXPECT_TRUE(std::isfinite(error));
+}
+
 TEST_F(ColorsTest, AskForExtendedPrecision) {
   EXPECT_TRUE(certify({}, colored_picture(1e5f, 0, 0), frame_, plan_).needs_extended);
   EXPECT_FALSE(certify({}, colored_picture(1, 0, 0), frame_, plan_).needs_extended);

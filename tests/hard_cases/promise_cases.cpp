@@ -183,6 +183,10 @@ std::vector<HardCase> promise_cases() {
       found("BrightPartOfALargePicture", "the same of stars of 1e4 times white",
             "turned 1 projection perspective picture_size 16384 field_of_view 50 group scatter "
             "places 50 sigma 0.4 peak 1e4"),
+      dark(found("CrowdOfTwoColorsThatEndsBeforeTheFirstPixel",
+                 "a part of no light that is infinite is no number",
+                 "turned 1 knots 3 group corner copies 40 x 50 sigma 5 width_range 1.03642 peak 70",
+                 {LightPlan::emission})),
       found("StarDeepInAnotherChannel",
             "where one channel is opaque, its light tells nothing of how deep it is",
             "light factor tolerance 0.01 turned 1 source 2.3 knots 15 decades 5.98947 group point "
