@@ -37,8 +37,11 @@ class ExtendedNumbers : public StageTest, public testing::WithParamInterface<boo
  protected:
   std::vector<double> evaluate(const std::string& function, const char* kernel,
                                const std::vector<float>& x) {
-    std::string defines = "#define FUNCTION " + function + "\n#define COPIES\n#define WIDE_ANGLE\n";
-    if (GetParam()) defines += "#define DOUBLE_NUMBERS\n";
+    const std::string defines = "#define FUNCTION " + function +
+                                "\n#define WIDE_ANGLE 1\n#define PROJECTION_FISHEYE 0\n#define "
+                                "PROJECTION_EQUIRECTANGULAR 1\n"
+                                "#define DOUBLE_NUMBERS " +
+                                (GetParam() ? "1\n" : "0\n");
     const Program program =
         device().programs.get({"kernels/project/wide_angle_extended.cl", defines, "",
                                std::string("#include \"kernels/extended/precise.cl\"\n") + kernel});

@@ -27,12 +27,13 @@ __kernel void evaluate(__global const float* x, __global float* results) {
 // Eight lanes or one.
 class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool> {
  protected:
-  std::vector<float> evaluate(const std::string& function, const std::string& defines,
-                              const std::vector<float>& x) {
-    const std::string lanes = GetParam() ? "#define LANES_8\n" : "";
-    const Program program = device().programs.get(
-        {"kernels/composite/shape.cl", "#define FUNCTION " + function + "\n" + lanes + defines, "",
-         shape_kernel});
+  std::vector<float> evaluate(const std::string& function, Precision precision,
+                              const std::vector<float>& x, const std::string& more = "") {
+    const std::string is_full = precision == Precision::full ? "1" : "0";
+    const std::string defines = "#define FUNCTION " + function + "\n#define FULL_PRECISION " +
+                                is_full + "\n" + (GetParam() ? "#define LANES_8\n" : "") + more;
+    const Program program =
+        device().programs.get({"kernels/composite/shape.cl", defines, "", shape_kernel});
     const auto results = device().pool.get<float>(x.size(), "result");
     Launch(device(), "test", program.create_kernel("evaluate"))
         .arg(device().pool.upload(x, "argument"))
@@ -55,8 +56,8 @@ double largest(const std::vector<float>& x, const std::vector<float>& found,
 TEST_P(ShapeFunctions, ErrorFunctionErrsByWhatPlansCountOn) {
   const std::vector<float> x = evenly_spread(-6, 6, 1 << 16);
   const auto error = [](double found, double at) { return found - std::erf(at); };
-  EXPECT_LE(largest(x, evaluate("error_function", "", x), error), 2.3e-6);
-  EXPECT_LE(largest(x, evaluate("error_function", "#define FULL_PRECISION\n", x), error), 2.3e-7);
+  EXPECT_LE(largest(x, evaluate("error_function", Precision::fast, x), error), 2.3e-6);
+  EXPECT_LE(largest(x, evaluate("error_function", Precision::full, x), error), 2.3e-7);
 }
 
 // Means along one axis: what is computed, at every fourth of a pixel from the center on.
@@ -89,12 +90,11 @@ double exact_mean(double place, double sigma) {
 
 TEST_P(ShapeFunctions, MeansByErfErrByTheirPartOfAPeakForEachSigma) {
   for (const Precision precision : {Precision::fast, Precision::full}) {
-    const std::string defines = precision == Precision::full ? "#define FULL_PRECISION\n" : "";
     for (double sigma = 0.5; sigma < 2; sigma *= 1.07) {
       std::vector<float> edges;
       for (const float place : fourths_of_pixels(96))
         edges.push_back((place - 0.5f) / static_cast<float>(sigma));
-      const std::vector<float> erf = evaluate("error_function", defines, edges);
+      const std::vector<float> erf = evaluate("error_function", precision, edges);
       Means means;
       for (std::size_t i = 0; i + 4 < erf.size(); ++i) {
         const double left = static_cast<double>(erf[i]), right = static_cast<double>(erf[i + 4]);
@@ -112,7 +112,7 @@ TEST_P(ShapeFunctions, MeansOfBrightSplatsErrByTheirPartOfAPeak) {
     const std::string define =
         "#define BRIGHT_MEAN(d) bright_mean(d, " + std::to_string(sigma) + "f)\n";
     Means means;
-    for (const float value : evaluate("BRIGHT_MEAN", define, places))
+    for (const float value : evaluate("BRIGHT_MEAN", Precision::fast, places, define))
       means.found.push_back(static_cast<double>(value));
     for (const float place : places)
       means.exact.push_back(exact_mean(static_cast<double>(place), sigma));
@@ -133,7 +133,7 @@ TEST_P(ShapeFunctions, MeansOfBrightSplatsErrByAPartOfThemselves) {
           left < 0 ? std::erf(right) - std::erf(left) : std::erfc(left) - std::erfc(right);
       return found / (0.5 * std::sqrt(3.141592653589793) * sigma * beyond) - 1;
     };
-    EXPECT_LE(2 * largest(places, evaluate("BRIGHT_MEAN", define, places), error),
+    EXPECT_LE(2 * largest(places, evaluate("BRIGHT_MEAN", Precision::fast, places, define), error),
               part_of_bright_mean(sigma, sigma, light))
         << sigma;
   }
@@ -142,20 +142,20 @@ TEST_P(ShapeFunctions, MeansOfBrightSplatsErrByAPartOfThemselves) {
 TEST_P(ShapeFunctions, ErrorFunctionLosesNoLightOfAGrain) {
   const std::vector<float> far = evenly_spread(4, 100, 64);
   const auto error = [](double found, double) { return found - 1; };
-  EXPECT_LE(largest(far, evaluate("error_function", "", far), error), 2.3e-7);
+  EXPECT_LE(largest(far, evaluate("error_function", Precision::fast, far), error), 2.3e-7);
 }
 
 TEST_P(ShapeFunctions, ComplementOfTheErrorFunctionErrsByPartsOfItself) {
   const std::vector<float> x = evenly_spread(0, 9.1, 1 << 16);
   const auto error = [](double found, double at) { return found / std::erfc(at) - 1; };
-  EXPECT_LE(largest(x, evaluate("complement_of_erf", "", x), error), 5e-7);
+  EXPECT_LE(largest(x, evaluate("complement_of_erf", Precision::fast, x), error), 5e-7);
 }
 
 TEST_P(ShapeFunctions, PowersOfTwoErrByThePartsThatPlansCountOn) {
   const std::vector<float> x = evenly_spread(-60, 0, 1 << 16);
   const auto error = [](double found, double at) { return found / std::exp2(at) - 1; };
-  EXPECT_LE(largest(x, evaluate("exp2_negative", "", x), error), 2.7e-6);
-  EXPECT_LE(largest(x, evaluate("exp2_negative", "#define FULL_PRECISION\n", x), error), 7.5e-8);
+  EXPECT_LE(largest(x, evaluate("exp2_negative", Precision::fast, x), error), 2.7e-6);
+  EXPECT_LE(largest(x, evaluate("exp2_negative", Precision::full, x), error), 7.5e-8);
 }
 
 TEST_P(ShapeFunctions, LogarithmsErrByARoundingAndTheirPolynomial) {
@@ -165,14 +165,15 @@ TEST_P(ShapeFunctions, LogarithmsErrByARoundingAndTheirPolynomial) {
   };
   for (const auto& [first, last] : {std::pair{0.6, 1.6}, {1e-3, 1e3}, {1e-30, 1e30}}) {
     const std::vector<float> x = evenly_spread(first, last, 1 << 16);
-    EXPECT_LE(largest(x, evaluate("log2_positive", "", x), beyond_rounding), 8e-8) << first;
+    EXPECT_LE(largest(x, evaluate("log2_positive", Precision::fast, x), beyond_rounding), 8e-8)
+        << first;
   }
 }
 
 TEST_P(ShapeFunctions, LogarithmsOfNumbersNearOneErrByPartsOfThemselves) {
   const std::vector<float> x = evenly_spread(1.00001, 1.01, 1 << 16);
   const auto part = [](double found, double at) { return found / std::log2(at) - 1; };
-  EXPECT_LE(largest(x, evaluate("log2_positive", "", x), part), 3e-7);
+  EXPECT_LE(largest(x, evaluate("log2_positive", Precision::fast, x), part), 3e-7);
 }
 
 // Of kernels/extended/double_lanes.cl.
