@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/words.h"
+#include "select/whole_number.h"
 
 namespace splotchcl {
 namespace {
@@ -43,34 +44,8 @@ std::vector<std::string> split_at(const std::string& text, const std::string& wo
   }
 }
 
-std::optional<Comparison> parse_comparison(const std::string& text) {
-  const std::size_t place = text.find_first_of(operator_characters);
-  if (place == std::string::npos) return std::nullopt;
-  Comparison comparison;
-  comparison.field = trimmed(text.substr(0, place));
-  if (comparison.field.empty() || begins_with_joint(comparison.field)) return std::nullopt;
-  for (const auto& [symbol, op] : operators) {
-    const std::string spelled = symbol;
-    if (text.compare(place, spelled.size(), spelled) != 0) continue;
-    const auto number = parse_number(trimmed(text.substr(place + spelled.size())));
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    comparison.op = op;
-    comparison.number = *number;
-    return comparison;
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-const char* const condition_form =
-    "a condition such as \"temperature > 1e6\" or \"density >= 3 and mass < 1\" (or with or), or "
-    "an "
-    "array of "
-    "conditions that all must hold, each with <, <=, >, >=, == or != between a field and a number";
-
-bool Comparison::holds(double value) const {
-  if (std::isnan(value)) return false;
+template <typename Number>
+bool compare(Operator op, Number value, Number number) {
   switch (op) {
     case Operator::less:
       return value < number;
@@ -86,6 +61,42 @@ bool Comparison::holds(double value) const {
       return value != number;
   }
   return false;
+}
+
+std::optional<Comparison> parse_comparison(const std::string& text) {
+  const std::size_t place = text.find_first_of(operator_characters);
+  if (place == std::string::npos) return std::nullopt;
+  Comparison comparison;
+  comparison.field = trimmed(text.substr(0, place));
+  if (comparison.field.empty() || begins_with_joint(comparison.field)) return std::nullopt;
+  for (const auto& [symbol, op] : operators) {
+    const std::string spelled = symbol;
+    if (text.compare(place, spelled.size(), spelled) != 0) continue;
+    const std::string right = trimmed(text.substr(place + spelled.size()));
+    const auto number = parse_number(right);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    comparison.op = op;
+    comparison.number = *number;
+    comparison.whole = whole_number(right);
+    return comparison;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* const condition_form =
+    "a condition such as \"temperature > 1e6\" or \"density >= 3 and mass < 1\" (or with or), or "
+    "an "
+    "array of "
+    "conditions that all must hold, each with <, <=, >, >=, == or != between a field and a number";
+
+bool Comparison::holds(double value) const {
+  return !std::isnan(value) && compare(op, value, number);
+}
+
+bool Comparison::holds_for_id(std::uint64_t id) const {
+  return whole && compare(op, id, *whole);
 }
 
 std::optional<Condition> parse_condition(const std::string& text) {

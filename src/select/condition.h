@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,9 +13,13 @@ struct Comparison {
   std::string field;
   Operator op = Operator::less;
   double number = 0;
+  // The same, exact, where it is one that an identifier may have.
+  std::optional<std::uint64_t> whole;
 
   // False for a value that is not a number, also for not_equal.
   bool holds(double value) const;
+  // Against `whole`, which it needs.
+  bool holds_for_id(std::uint64_t id) const;
 };
 
 // Holds where all of its comparisons do.

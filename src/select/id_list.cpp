@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "common/mapped_file.h"
 #include "common/words.h"
+#include "select/whole_number.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -17,18 +17,26 @@ namespace {
 
 std::uint64_t parse_id(const std::string& text, const std::filesystem::path& path,
                        std::size_t line) {
-  std::uint64_t id = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, id);
-  if (error == std::errc() && rest == end) return id;
+  if (const auto id = whole_number(text)) return *id;
   constexpr std::size_t longest = 40;
   throw DataError(fmt::format(
       "{}:{}: found \"{}\"{}, expected one identifier on each line, a whole number "
-      "from 0 to 2^64 - 1",
+      "from 0 to 2^64 - 1 (numpy.savetxt writes them with fmt=\"%d\")",
       path.string(), line, text.substr(0, longest), text.size() > longest ? "..." : ""));
 }
 
 }  // namespace
+
+void refuse_mask(const std::vector<std::uint64_t>& ids, const std::filesystem::path& path) {
+  const auto zeros = std::count(ids.begin(), ids.end(), 0U);
+  const auto ones = std::count(ids.begin(), ids.end(), 1U);
+  const bool is_mask = static_cast<std::size_t>(zeros + ones) == ids.size() && ids.size() > 2;
+  if (!is_mask) return;
+  throw DataError(fmt::format(
+      "{}: found a mask, {} zeros and {} ones, expected the identifiers of the particles that are "
+      "wanted; save ids[mask] instead",
+      path.string(), zeros, ones));
+}
 
 std::vector<std::uint64_t> read_id_list(const std::filesystem::path& path) {
   const auto file = MappedFile::open(path);
@@ -43,6 +51,7 @@ std::vector<std::uint64_t> read_id_list(const std::filesystem::path& path) {
   if (ids.empty()) {
     throw DataError(path.string() + ": found no identifier, expected one on each line");
   }
+  refuse_mask(ids, path);
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;

@@ -46,6 +46,7 @@ NumpyMember parse_type(const std::string& text, const std::string& name) {
     if (known.code != code) continue;
     member.kind = known.kind;
     member.is_usable = true;
+    member.is_truth = code == "b1";
   }
   const char* const end = code.data() + code.size();
   const auto [stop, error] = std::from_chars(code.data() + 1, end, member.bytes);

@@ -19,6 +19,11 @@ std::vector<std::uint64_t> read_numpy_integers(const std::filesystem::path& path
   const NumpyHeader header =
       read_numpy_header(file->data(), file->size(), file->size(), path.string());
   const NumpyMember& values = header.members.front();
+  if (values.is_truth) {
+    throw DataError(path.string() +
+                    ": found a mask of true and false, expected the identifiers of the particles "
+                    "that are wanted; save ids[mask] instead");
+  }
   const bool is_list = !header.is_structured && values.is_usable && header.shape.size() == 1;
   if (is_list) {
     StoredValues stored;
