@@ -45,6 +45,13 @@ void check_header(const GadgetHeader& header, const std::filesystem::path& path)
 // the header's number of files is not always set.
 bool is_complete_alone(const GadgetHeader& header);
 
+// Whether files beside one that is complete alone may belong to it: its header counts more
+// particles in all than it holds, or speaks of as many files as are there.
+bool may_have_siblings(const GadgetHeader& header, std::size_t files_there);
+
+// Whether two files are of one state of the same simulation.
+bool are_of_one_time(const GadgetHeader& a, const GadgetHeader& b);
+
 // The members' headers as one snapshot: counts added, everything else as in the first.
 // Refuses members that do not belong together and counts that do not add up; high words of the
 // totals that the counts contradict are ignored, with a note.

@@ -16,8 +16,8 @@ struct Hdf5Field {
 };
 
 // The fields of group PartType<type>. Datasets that are neither numbers nor have one or
-// three values per particle are left out and named in `notes`. Throws DataError when a
-// dataset contradicts the header or positions are missing.
+// three values per particle, and those that have not a row for each, are left out and named in
+// `notes`.
 std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader& header, int type,
                                         std::vector<std::string>& notes);
 
@@ -29,7 +29,9 @@ void count_rows_without_header(const Hdf5File& file, GadgetHeader& header,
 // AREPO's tracers are marks on cells, without positions of their own: they do not count.
 void leave_out_tracers(const Hdf5File& file, GadgetHeader& header, std::vector<std::string>& notes);
 
-// Throws DataError when a group PartTypeN has particles of which the header knows nothing.
-void check_hdf5_groups(const Hdf5File& file, const GadgetHeader& header);
+// The rows of the positions count where the header counts others, and a type without positions, or
+// without its group, is left out: both with a note. Throws DataError when no type has positions.
+void count_rows_of_positions(const Hdf5File& file, GadgetHeader& header,
+                             std::vector<std::string>& notes);
 
 }  // namespace splotchcl

@@ -28,6 +28,35 @@ double find_number(const Hdf5File& file, const std::vector<AttributeLocation>& l
   return otherwise;
 }
 
+// Of a dataset of the first type that states it; 0: none does.
+double size_of_unit(const Hdf5File& file, const std::string& label, const char* attribute) {
+  constexpr int most_types = 8;
+  for (int type = 0; type < most_types; ++type) {
+    const auto size = file.number(fmt::format("PartType{}/{}", type, label), attribute);
+    if (size && *size > 0) return *size;
+  }
+  return 0;
+}
+
+double size_of_swift_unit(const Hdf5File& file, const std::string& label) {
+  return size_of_unit(file, label, size_in_swift);
+}
+
+// Without the units of the whole file those of its datasets tell.
+BaseUnits read_units_of_datasets(const Hdf5File& file) {
+  BaseUnits units;
+  for (const char* const attribute : {size_in_swift, size_in_eagle, size_in_gadget}) {
+    units.length_in_cm = size_of_unit(file, "Coordinates", attribute);
+    units.mass_in_g = size_of_unit(file, "Masses", attribute);
+    if (units.mass_in_g == 0) units.mass_in_g = size_of_unit(file, "Mass", attribute);
+    units.velocity_in_cm_per_s = size_of_unit(file, "Velocities", attribute);
+    if (units.velocity_in_cm_per_s == 0)
+      units.velocity_in_cm_per_s = size_of_unit(file, "Velocity", attribute);
+    if (units.length_in_cm > 0) break;
+  }
+  return units;
+}
+
 // Whole numbers of at least 0; none, and a note, where one is something else. The datasets
 // themselves tell how many particles there are.
 std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribute,
@@ -43,6 +72,17 @@ std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribu
     counts.push_back(static_cast<std::uint64_t>(number));
   }
   return counts;
+}
+
+// What is at the root, for a message.
+std::vector<std::string> contents_of(const Hdf5File& file) {
+  std::vector<std::string> contents = file.groups("/");
+  for (const Hdf5Dataset& dataset : file.datasets("/")) {
+    contents.push_back(
+        fmt::format("{} ({}{})", dataset.label(), fmt::join(dataset.shape, " x "),
+                    dataset.kind == Hdf5Dataset::Kind::other ? ", no plain numbers" : ""));
+  }
+  return contents;
 }
 
 // One length for all axes, or one for each.
@@ -67,11 +107,11 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   const auto counts = read_counts(file, "NumPart_ThisFile", notes);
   const bool has_header = file.numbers("Header", "NumPart_ThisFile").has_value();
   if (!has_header || counts.size() > most_types) {
-    throw DataError(
-        fmt::format("{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (its "
-                    "groups are: {}); expected a snapshot of Gadget or SWIFT, or datasets of "
-                    "positions at its root or in its groups",
-                    file.path().string(), fmt::join(file.groups("/"), ", ")));
+    throw DataError(fmt::format(
+        "{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (it "
+        "holds: {}); expected a snapshot of Gadget or SWIFT, or datasets of positions at "
+        "its root or in its groups, of one number or three in each row: write it so",
+        file.path().string(), fmt::join(contents_of(file), ", ")));
   }
   GadgetHeader header;
   header.counts = counts;
@@ -85,7 +125,9 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   header.table_masses = file.numbers("Header", "MassTable").value_or(std::vector<double>());
   header.table_masses.resize(types, 0);
   header.time = file.number("Header", "Time").value_or(0);
-  const double files = file.number("Header", "NumFilesPerSnapshot").value_or(1);
+  // Gadget 4's light cones have the shorter name.
+  const double files =
+      find_number(file, {{"Header", "NumFilesPerSnapshot"}, {"Header", "NumFiles"}}, 1);
   header.files = files >= 1 && files <= 1e9 ? static_cast<int>(files) : 1;
   header.box_size = read_box_size(file);
   header.hubble_parameter = find_number(
@@ -113,12 +155,15 @@ std::string hdf5_dialect(const Hdf5File& file) {
   if (file.number("Header", "GIZMO_version")) return "GIZMO HDF5";
   // A moving mesh has cells with centres and volumes, and no kernel.
   const bool is_mesh = (file.has("/PartType0/CenterOfMass") || file.has("/PartType0/Volume")) &&
-                       !file.has("/PartType0/SmoothingLength");
+                       !file.has("/PartType0/SmoothingLength") &&
+                       !file.has("/PartType0/KernelMaxRadius");
   return is_mesh ? "AREPO HDF5" : "Gadget HDF5";
 }
 
 bool is_swift_file(const Hdf5File& file) {
-  return file.text("Header", "Code") == "SWIFT" || file.text("Code", "Code") == "SWIFT";
+  if (file.text("Header", "Code") == "SWIFT" || file.text("Code", "Code") == "SWIFT") return true;
+  const bool names_code = file.text("Header", "Code") || file.text("Code", "Code");
+  return !names_code && !file.has("Units") && size_of_swift_unit(file, "Coordinates") > 0;
 }
 
 bool is_swift_start_file(const Hdf5File& file) {
@@ -179,7 +224,9 @@ BaseUnits read_base_units(const Hdf5File& file) {
                                            0);
   const double time = file.number("Units", "Unit time in cgs (U_t)").value_or(0);
   if (time > 0) units.velocity_in_cm_per_s = units.length_in_cm / time;
-  return units;
+  const bool are_known =
+      units.length_in_cm > 0 || units.mass_in_g > 0 || units.velocity_in_cm_per_s > 0;
+  return are_known ? units : read_units_of_datasets(file);
 }
 
 }  // namespace splotchcl

@@ -14,6 +14,8 @@ namespace splotchcl {
 // scalars or arrays of any length, and cosmology may be in other groups. Throws DataError.
 GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes);
 
+// Also a part of one that was written without what SWIFT says of itself: its datasets have SWIFT's
+// attributes.
 bool is_swift_file(const Hdf5File& file);
 // Whether it holds initial conditions for SWIFT, which name no code but have its units.
 bool is_swift_start_file(const Hdf5File& file);
