@@ -6,6 +6,7 @@
 
 #include "common/words.h"
 #include "formats/table_names.h"
+#include "snapshot/field_names.h"
 
 namespace splotchcl {
 namespace {
@@ -33,6 +34,15 @@ void rename_axes(std::vector<std::string>& names, const std::string& before,
     std::replace(names.begin(), names.end(), before + axes[axis] + after,
                  stem + static_cast<char>('x' + axis));
   }
+}
+
+// "smoothing length" is a name of ours but for its blank.
+std::string with_our_blanks(const std::string& name) {
+  NameAndUnit parts = split_unit(name);
+  std::string joined = parts.name;
+  std::replace(joined.begin(), joined.end(), ' ', '_');
+  if (canonical_field_name(joined).empty()) return name;
+  return parts.unit.empty() ? joined : joined + " [" + parts.unit + "]";
 }
 
 // The value of a key of "{name: x, unit: km / s, datatype: float64}"; empty where it has none.
@@ -76,6 +86,18 @@ void add_ecsv_units(const std::vector<std::string_view>& comments,
     if (unit.empty() || named == names.end() || !split_unit(*named).unit.empty()) continue;
     *named += " [" + unit + "]";
   }
+}
+
+std::vector<std::string> names_by_number(const std::vector<std::string_view>& comments,
+                                         std::size_t columns) {
+  std::vector<std::string> names;
+  for (const std::string_view comment : comments) {
+    const std::string text = trimmed(std::string(comment));
+    const std::string start = "column " + std::to_string(names.size() + 1) + ":";
+    if (lower_case(text.substr(0, start.size())) != start) continue;
+    names.push_back(with_our_blanks(trimmed(text.substr(start.size()))));
+  }
+  return names.size() == columns ? names : std::vector<std::string>();
 }
 
 std::vector<std::string> names_in_columns(std::string_view line) {

@@ -14,6 +14,11 @@ std::vector<std::string> in_our_words(std::vector<std::string> names);
 // - {name: x, unit: kpc, datatype: float64}. Names that have a unit keep it.
 void add_ecsv_units(const std::vector<std::string_view>& comments, std::vector<std::string>& names);
 
+// As SKIRT writes names, a comment for each column: "column 1: position x (kpc)". Empty unless
+// there is one for each of so many columns.
+std::vector<std::string> names_by_number(const std::vector<std::string_view>& comments,
+                                         std::size_t columns);
+
 // As SPLASH writes names, in columns of 16 letters of which the first is blank; units that it cuts
 // short are left out.
 std::vector<std::string> names_in_columns(std::string_view line);

@@ -243,7 +243,8 @@ bool name_positions(const std::vector<std::string>& names) {
 // else the last.
 std::vector<std::string> names_in_comments(const std::vector<std::string_view>& comments,
                                            std::size_t wanted) {
-  std::vector<std::string> last;
+  std::vector<std::string> last = names_by_number(comments, wanted);
+  if (!last.empty()) return last;
   for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment) {
     std::vector<std::string> names = names_in_columns(*comment);
     if (names.size() != wanted) names = in_our_words(names_in(trim(*comment), wanted));

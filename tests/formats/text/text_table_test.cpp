@@ -201,6 +201,17 @@ TEST_F(TextTable, NamesInColumnsOfSplashMayBeCut) {
   EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "au");
 }
 
+TEST_F(TextTable, EachColumnMayHaveACommentOfItsOwn) {
+  const std::string header =
+      "# Particles for SKIRT\n# Column 1: position x (kpc)\n# Column 2: position y (kpc)\n"
+      "# Column 3: position z (kpc)\n# Column 4: smoothing length (pc)\n# Column 5: mass (Msun)\n";
+  const auto snapshot = open(header + "1 2 3 500 9\n5 6 7 250 8\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.25F));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(9, 8));
+  EXPECT_THAT(refusal_of(header + "1 2 3 4\n5 6 7 8\n"), HasSubstr("no positions"));
+}
+
 TEST_F(TextTable, LinesMayEndInAComma) {
   const auto snapshot = open("x, y, z, particle mass,\n1, 2, 3, 9,\n5, 6, 7, 8,\n");
   EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
