@@ -60,13 +60,16 @@ class Lines {
                          : static_cast<std::uint64_t>(static_cast<const char*>(end) - data_);
       offset_ = stop + 1;
       ++number_;
-      line_ = trim(std::string_view(data_ + start_, stop - start_));
+      whole_ = std::string_view(data_ + start_, stop - start_);
+      line_ = trim(whole_);
       begins_with_blank_ = data_[start_] == ' ' || data_[start_] == '\t';
       if (!line_.empty()) return true;
     }
     return false;
   }
   std::string_view line() const { return line_; }
+  // Where a tab at the beginning or end means an empty cell.
+  std::string_view line(char separator) const { return separator == '\t' ? whole_ : line_; }
   bool begins_with_blank() const { return begins_with_blank_; }
   std::uint64_t number() const { return number_; }  // from 1
   std::uint64_t start() const { return start_; }
@@ -75,7 +78,7 @@ class Lines {
   const char* data_;
   std::uint64_t size_, offset_, number_;
   std::uint64_t start_ = 0;
-  std::string_view line_;
+  std::string_view line_, whole_;
   bool begins_with_blank_ = false;
 };
 
@@ -229,6 +232,7 @@ bool are_whole(const std::vector<std::string_view>& cells) {
 struct Header {
   std::vector<std::string_view> comments;
   std::string_view line;  // that is no comment; empty where there is none
+  std::string_view whole_line;
   bool begins_with_blank = false;
 };
 
@@ -263,6 +267,18 @@ std::vector<std::string> names_in(const Header& header, std::size_t wanted) {
   return names;
 }
 
+// Whether the line of names has so many of them apart by tabs: cells may then be empty.
+bool has_tabs(const Header& header, std::size_t columns) {
+  if (header.line.find('\t') == std::string_view::npos) return false;
+  const std::vector<std::string_view> names = split(header.whole_line, '\t');
+  return names.size() == columns && std::none_of(names.begin(), names.end(), is_missing);
+}
+
+std::vector<std::string> names_between_tabs(const Header& header) {
+  const std::vector<std::string_view> names = split(header.whole_line, '\t');
+  return in_our_words({names.begin(), names.end()});
+}
+
 std::string_view without_mark(std::string_view comment) {
   comment.remove_prefix(comment.substr(0, 2) == "//" ? 2 : 1);
   return comment;
@@ -284,15 +300,23 @@ std::optional<Layout> find_layout(const MappedFile& file) {
     Layout layout;
     layout.separator = find_separator(line);
     layout.cells = split(line, layout.separator);
+    const std::vector<std::string_view> apart_by_tabs = split(lines.line('\t'), '\t');
+    if (layout.separator == ' ' && is_row(apart_by_tabs) &&
+        has_tabs(header, apart_by_tabs.size())) {
+      layout.separator = '\t';
+      layout.cells = apart_by_tabs;
+    }
     if (is_row(layout.cells)) {
       layout.first_row = lines.start();
       layout.lines_before = lines.number() - 1;
-      layout.names = names_in(header, layout.cells.size());
+      layout.names = layout.separator == '\t' ? names_between_tabs(header)
+                                              : names_in(header, layout.cells.size());
       if (!header.line.empty() && layout.names.empty()) return std::nullopt;
       return layout;
     }
     if (!header.line.empty()) return std::nullopt;
     header.line = line;
+    header.whole_line = lines.line('\t');
     header.begins_with_blank = lines.begins_with_blank();
   }
   return std::nullopt;
@@ -394,7 +418,7 @@ void TextTable::fail(const Lines& line, const std::string& what) const {
 
 void TextTable::read_row(const Lines& line, const std::vector<WantedCell>& wanted,
                          double* values) const {
-  std::string_view rest = line.line();
+  std::string_view rest = line.line(layout_.separator);
   auto next = wanted.begin();
   std::size_t cells = 0;
   for (bool has_more = true; has_more; ++cells) {
@@ -433,7 +457,8 @@ std::optional<std::vector<std::uint64_t>> TextTable::integers(std::size_t column
   Lines lines(*file_, layout_.first_row, layout_.lines_before);
   while (lines.next()) {
     if (is_comment(lines.line())) continue;
-    const std::vector<std::string_view> cells = split(lines.line(), layout_.separator);
+    const std::vector<std::string_view> cells =
+        split(lines.line(layout_.separator), layout_.separator);
     if (cells.size() <= cells_[column]) return std::nullopt;
     const std::string_view cell = cells[cells_[column]];
     std::uint64_t value = 0;
@@ -446,6 +471,7 @@ std::optional<std::vector<std::uint64_t>> TextTable::integers(std::size_t column
 
 const char* separator_name(char separator) {
   if (separator == ',') return "commas";
+  if (separator == '\t') return "tabs";
   return separator == ';' ? "semicolons" : "white space";
 }
 

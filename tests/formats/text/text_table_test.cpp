@@ -212,6 +212,17 @@ TEST_F(TextTable, EachColumnMayHaveACommentOfItsOwn) {
   EXPECT_THAT(refusal_of(header + "1 2 3 4\n5 6 7 8\n"), HasSubstr("no positions"));
 }
 
+TEST_F(TextTable, CellsBetweenTabsMayBeEmpty) {
+  const auto snapshot = open("age\tx\ty\tz\tstar mass\th\n4\t1\t2\t3\t\t0.5\n\t5\t6\t7\t8\t\n");
+  EXPECT_EQ(snapshot->info().format, "text with tabs between columns");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_TRUE(std::isnan(snapshot->read(0, "star mass")[0]));
+  EXPECT_EQ(snapshot->read(0, "star mass")[1], 8);
+  EXPECT_EQ(snapshot->read(0, "age")[0], 4);
+  EXPECT_TRUE(std::isnan(snapshot->read(0, "age")[1]));
+  EXPECT_TRUE(std::isnan(snapshot->read(0, "h")[1]));
+}
+
 TEST_F(TextTable, LinesMayEndInAComma) {
   const auto snapshot = open("x, y, z, particle mass,\n1, 2, 3, 9,\n5, 6, 7, 8,\n");
   EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
