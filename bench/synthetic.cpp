@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "scene/reference_column.h"
+#include "scene/statistics.h"
 
 namespace splotchcl::bench {
 namespace {

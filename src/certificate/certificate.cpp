@@ -25,8 +25,9 @@ constexpr double least_of_peaks = 0.3;
 constexpr double least_of_slabs = 0.3, most_times_slabs = 100;
 // and by so much more than what was found to be missing.
 constexpr double margin = 1.5;
-// What is promised of extended precision leaves so much to them.
-constexpr double colors_of_extended = 0.3 * extended_tolerance;
+// What pixels err by in extended precision, and what lies behind depths of 1 each
+// (docs/dev/accuracy.md, "Tolerance 0").
+constexpr double of_extended = 7e-7, of_extended_depth = 6e-8;
 // What colors may do before all of a picture's numbers get more digits.
 constexpr double most_of_colors = 0.5;
 // What is left for ends, at least, where nothing makes peaks smaller.
@@ -81,7 +82,7 @@ class FrameErrors {
         rest_(error_of_all_pixels(splats, plan)),
         part_of_all_(plan.certify ? part_of_all_splats(splats, plan) : 0),
         colors_(image, splats.depths, frame, plan),
-        part_of_colors_(part_of_colors(frame, plan)),
+        light_behind_(plan.light_behind),
         part_of_layers_(plan.needs_sort() ? plan.layers.part : 0),
         slabs_(plan.slabs),
         of_slabs_(splats.of_slabs) {
@@ -109,7 +110,7 @@ class FrameErrors {
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
-    sums.rest = of_colors(block) +
+    sums.rest = of_colors(block, pixels) +
                 (rest_ + part_of_all_ * light.parts + part_of_layers_ * light.layers) / promise_;
     double light_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
@@ -140,10 +141,17 @@ class FrameErrors {
   }
 
   // What nothing but more digits of colors makes smaller.
+  double of_colors(std::size_t block, const PixelBlock& pixels) const {
+    if (colors_.are_exact()) return 0;
+    double light = 0;
+    for (const OctaveErrors& octave : octaves_)
+      light += octave.light(pixels);
+    const double negligible = negligible_part * promise_;
+    return colors_.in_block(block, picture_.blocks[block], light / light_behind_, negligible) /
+           promise_;
+  }
   double of_colors(std::size_t block) const {
-    if (part_of_colors_ == 0) return 0;
-    const double layers = picture_.blocks[block].behind;
-    return part_of_colors_ * colors_.in_block(block, layers) / promise_;
+    return of_colors(block, pixels_of_block(block, picture_.columns));
   }
 
   std::vector<Part> parts() const { return std::vector<Part>(octaves_.size()); }
@@ -211,7 +219,7 @@ class FrameErrors {
   bool is_bound_, is_cut_;
   double promise_, rest_, part_of_all_;
   ColorLight colors_;
-  double part_of_colors_, part_of_layers_;
+  double light_behind_, part_of_layers_;
   int slabs_;
   const std::vector<float>& of_slabs_;
   std::array<double, width_octaves> lights_{};  // that splats counted as
@@ -222,8 +230,13 @@ class FrameErrors {
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan) {
   constexpr std::size_t blocks_at_once = 256;
-  if (!plan.has_errors_of_splats && !plan.needs_sort() && part_of_colors(frame, plan) == 0)
-    return even_certificate(image, error_of_all_pixels(splats, plan), plan.shares.promise);
+  if (!plan.has_errors_of_splats && !plan.needs_sort()) {
+    const ColorLight colors(image, splats.depths, frame, plan);
+    const double of_colors = colors.are_exact() ? 0 : negligible_part * plan.shares.promise;
+    const double error = error_of_all_pixels(splats, plan);
+    if (colors.are_within(of_colors))
+      return even_certificate(image, error + of_colors, plan.shares.promise);
+  }
   const FrameErrors errors(splats, image, frame, plan);
   std::vector<ErrorParts> blocks(errors.block_count());
   for_blocks(blocks.size(), blocks_at_once, [&](std::size_t first, std::size_t last) {
@@ -238,7 +251,8 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double error = blocks[b].sum();
     certificate.blocks.errors[b] = static_cast<float>(error * plan.shares.promise);
-    if (error > certificate.error_of_promise) {
+    // What is no number is larger than any.
+    if (!(error <= certificate.error_of_promise)) {
       certificate.error_of_promise = error;
       certificate.worst = blocks[b];
     }
@@ -257,16 +271,16 @@ Certificate certify_extended(const CollectedSplats& splats, const Image& image, 
                              const FramePlan& plan) {
   const double promise = std::max(frame.tolerance, extended_tolerance);
   Certificate certificate = even_certificate(image, extended_tolerance, promise);
-  const double part = part_of_colors(frame, plan);
-  if (part == 0) return certificate;
-  const PictureLight picture = measure_light(image, splats.depths, frame, plan);
   const ColorLight colors(image, splats.depths, frame, plan);
-  std::vector<float>& errors = certificate.blocks.errors;
-  for (std::size_t b = 0; b < errors.size(); ++b) {
-    const double of_colors = part * colors.in_block(b, picture.blocks[b].behind);
-    errors[b] += static_cast<float>(std::max(0.0, of_colors - colors_of_extended));
-    const double error = static_cast<double>(errors[b]) / promise;
-    if (error > certificate.error_of_promise) certificate.error_of_promise = error;
+  if (colors.are_exact() && !plan.needs_sort()) return certificate;
+  const PictureLight picture = measure_light(image, splats.depths, frame, plan);
+  for (std::size_t b = 0; b < picture.blocks.size(); ++b) {
+    const BlockLight& light = picture.blocks[b];
+    const double of_colors = colors.in_block(b, light, 0, 0);
+    const double error =
+        std::max(extended_tolerance, of_extended + of_extended_depth * light.behind + of_colors);
+    certificate.blocks.errors[b] = static_cast<float>(error);
+    certificate.error_of_promise = std::max(certificate.error_of_promise, error / promise);
   }
   certificate.worst.rest = certificate.error_of_promise;
   return certificate;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "scene/scalar_map.h"
@@ -23,8 +24,8 @@ struct FieldRoundings {
 };
 
 FieldRoundings roundings_of(const FramePlan& plan) {
-  // Of numbers of 45 bits, and of their logarithms.
-  if (plan.is_extended()) return {3e-10, 3e-11, 0x1p-42};
+  // Of numbers of 45 bits, and of their logarithms; asinh errs by three times as much.
+  if (plan.is_extended()) return {1e-10, 3e-11, 0x1p-42};
   if (plan.certify) return {24 * rounding, 4 * rounding, 4 * rounding};
   return {6 * rounding, 2 * rounding, 2 * rounding};
 }
@@ -33,7 +34,8 @@ PlaceError error_of_place(const ScalarMap& map, const FieldRoundings& roundings)
   const double range = std::abs(map.maximum - map.minimum);
   if (range == 0) return {};
   if (map.scaling == Scaling::linear) return {roundings.of_difference, 0};
-  if (least_before_scaling(map)) return {roundings.from_least, 0};
+  if (least_before_scaling(map))
+    return {(map.scaling == Scaling::asinh ? 3 : 1) * roundings.from_least, 0};
   const double largest = std::max({1.0, std::abs(map.minimum), std::abs(map.maximum)});
   return {roundings.of_difference, roundings.of_function * largest / range};
 }
@@ -42,45 +44,79 @@ double largest_channel(const Rgb& color) {
   return static_cast<double>(std::max({color[0], color[1], color[2]}));
 }
 
-// Between the two knots where it is most: in parts of the brightest channel, halfway to the
-// brighter knot.
-double part_of_knots(const std::vector<Rgb>& knots, const PlaceError& place) {
+void take_largest(const ColorParts& parts, ColorParts& largest) {
+  largest.of_brightest = std::max(largest.of_brightest, parts.of_brightest);
+  largest.of_itself = std::max(largest.of_itself, parts.of_itself);
+}
+
+// The brightest channel where it is faintest between two knots: at one of them, or where it becomes
+// another one.
+double faintest_between(const Rgb& before, const Rgb& behind) {
+  double least = std::min(largest_channel(before), largest_channel(behind));
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::size_t other = (c + 1) % 3;
+    const auto apart = static_cast<double>(before[c] - before[other]);
+    const double closer = apart - static_cast<double>(behind[c] - behind[other]);
+    const double way = closer != 0 ? apart / closer : -1;
+    if (way <= 0 || way >= 1) continue;
+    double most = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      most = std::max(
+          most, (1 - way) * static_cast<double>(before[i]) + way * static_cast<double>(behind[i]));
+    least = std::min(least, most);
+  }
+  return least;
+}
+
+// Of a channel between knot k - 1 and knot k of `steps`, where the brightest one is as bright.
+ColorParts parts_between(float before, float behind, double brightest, double k, double steps,
+                         const PlaceError& place) {
+  const double change = static_cast<double>(std::abs(behind - before));
+  if (change == 0) return {};
+  const double moved = change * (place.of_itself * k + place.of_range * steps);
+  const double least = static_cast<double>(std::min(before, behind));
+  // From no light on it grows as its place does.
+  if (before == 0 && k == 1 && place.of_range == 0) return {moved / brightest, place.of_itself};
+  return {moved / brightest, least > 0 ? moved / least : std::numeric_limits<double>::infinity()};
+}
+
+ColorParts parts_of_knots(const std::vector<Rgb>& knots, const PlaceError& place) {
   const auto steps = static_cast<double>(std::max<std::size_t>(knots.size(), 1) - 1);
-  double largest = 0;
+  ColorParts largest;
   for (std::size_t k = 1; k < knots.size(); ++k) {
-    double change = 0;
+    const Rgb &before = knots[k - 1], &behind = knots[k];
+    const double halfway = 0.5 * std::max(largest_channel(before), largest_channel(behind));
+    const double brightest = std::max(halfway, faintest_between(before, behind));
     for (std::size_t c = 0; c < 3; ++c)
-      change = std::max(change, static_cast<double>(std::abs(knots[k][c] - knots[k - 1][c])));
-    if (change == 0) continue;
-    const double brighter = std::max(largest_channel(knots[k - 1]), largest_channel(knots[k]));
-    const double farthest = static_cast<double>(k) / steps;
-    const double moved = steps * (place.of_itself * farthest + place.of_range);
-    largest = std::max(largest, change * moved / (0.5 * brighter));
+      take_largest(
+          parts_between(before[c], behind[c], brightest, static_cast<double>(k), steps, place),
+          largest);
   }
   return largest;
 }
 
-double part_of(const DrawnComponent& component, const FieldRoundings& roundings) {
-  double part = 0;
+ColorParts parts_of(const DrawnComponent& component, const FieldRoundings& roundings) {
+  ColorParts parts;
   if (!component.particles.color.is_absent()) {
     const PlaceError place = error_of_place(component.color, roundings);
-    part = std::max(part_of_knots(component.palette.emission, place),
-                    part_of_knots(component.palette.absorption, place));
+    take_largest(parts_of_knots(component.palette.emission, place), parts);
+    take_largest(parts_of_knots(component.palette.absorption, place), parts);
   }
   if (!component.particles.intensity.is_absent()) {
     const PlaceError place = error_of_place(component.intensity, roundings);
-    part += 2 * (place.of_itself + place.of_range);
+    parts.of_brightest += 2 * (place.of_itself + place.of_range);
+    parts.of_itself += 2 * (place.of_itself + place.of_range);
   }
-  return part;
+  return parts;
 }
 
 }  // namespace
 
-double part_of_colors(const Frame& frame, const FramePlan& plan) {
+ColorParts parts_of_colors(const Frame& frame, const FramePlan& plan) {
   const FieldRoundings roundings = roundings_of(plan);
-  double largest = 0;
+  ColorParts largest;
   for (const DrawnComponent& component : frame.components)
-    largest = std::max(largest, part_of(component, roundings));
+    take_largest(parts_of(component, roundings), largest);
   return largest;
 }
 

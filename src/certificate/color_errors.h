@@ -5,11 +5,15 @@
 
 namespace splotchcl {
 
-// The part of its brightest channel's light by which a splat may err in any channel since its place
-// in the palette, and its intensity, are rounded (docs/dev/accuracy.md, "Colors and intensities").
-// By roundings of either sign as an estimate, all of one sign where a bound is asked for
-// (FramePlan::certify) and in extended precision. An estimate where a palette, or the intensity,
-// comes close to black.
-double part_of_colors(const Frame& frame, const FramePlan& plan);
+// The part by which a splat may err in any channel since its place in the palette, and its
+// intensity, are rounded (docs/dev/accuracy.md, "Colors and intensities"): of its brightest
+// channel's light, and of the channel's own; the latter is infinite where a channel has no light at
+// a knot. By roundings of either sign as an estimate, all of one sign where a bound is asked for
+// (FramePlan::certify) and in extended precision. The former is an estimate where a palette, or the
+// intensity, comes close to black.
+struct ColorParts {
+  double of_brightest = 0, of_itself = 0;
+};
+ColorParts parts_of_colors(const Frame& frame, const FramePlan& plan);
 
 }  // namespace splotchcl

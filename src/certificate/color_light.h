@@ -3,6 +3,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "certificate/color_errors.h"
+#include "certificate/octave_errors.h"
+#include "certificate/picture_light.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/image.h"
 #include "splotchcl/plan.h"
@@ -18,16 +21,23 @@ class ColorLight {
   ColorLight(const Image& image, const std::vector<float>& depths, const Frame& frame,
              const FramePlan& plan);
 
-  // The most that a pixel of this block (BlockErrors) errs over max(1, I), where every splat errs
-  // by the whole of itself. `layers`: of an ordered block, how many times what is added is taken
-  // away of what lies behind, at most.
-  double in_block(std::size_t block, double layers) const;
+  bool are_exact() const { return parts_.of_brightest == 0; }
+  // Whether all pixels of a sum err by no more than that, whatever their colors.
+  bool are_within(double error) const;
+  // The most that a pixel of this block (BlockErrors) errs over max(1, I); what is less than
+  // `negligible` may be larger than that. `depth`: of an ordered block, how deep its splats are
+  // together as far as that is known.
+  double in_block(std::size_t block, const BlockLight& light, double depth,
+                  double negligible) const;
 
  private:
+  double at_most(double brightest, double deepest) const;
   double of_pixel(const float* pixel, double deepest) const;
+  double of_brightest(const PixelBlock& pixels, double deepest) const;
 
   const Image& image_;
   const std::vector<float>& depths_;
+  ColorParts parts_;
   LightPlan light_;
   double source_, contrast_;  // proportional
 };

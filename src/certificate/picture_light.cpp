@@ -12,6 +12,10 @@
 namespace splotchcl {
 namespace {
 
+// What emits without absorbing has no brightest source, but a splat is no brighter than 2^60
+// (kernels/project/project.h), and there are no more than 2^32.
+constexpr double most_light = 0x1p92;
+
 // Light of one channel in the pixels of a block.
 struct Range {
   double least = std::numeric_limits<double>::max(), most = 0;
@@ -140,6 +144,7 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around, const
     block.layers = std::max(block.layers, response.layers);
     block.behind = std::max(block.behind, response.behind);
     block.relative = std::max(block.relative, response.relative);
+    block.most = std::max(block.most, ranges.channels[c].most);
     least = std::min(least, ranges.channels[c].least);
   }
   block.allowed = std::max(1.0, least);
@@ -156,7 +161,8 @@ PictureLight measure_light(const Image& image, const std::vector<float>& depths,
   picture.rows = BlockErrors::blocks_along(image.height);
   const auto columns = static_cast<std::size_t>(picture.columns);
   const Surroundings around = {plan.light, plan.source, brightest_background(frame)};
-  const double brightest = std::max({1.0, around.background, brightest_source(frame)});
+  const double source = std::min(brightest_source(frame), most_light);
+  const double brightest = std::max({1.0, around.background, source});
   picture.blocks.resize(columns * static_cast<std::size_t>(picture.rows));
   for_blocks(picture.blocks.size(), columns, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) {

@@ -12,6 +12,7 @@ namespace splotchcl {
 struct BlockLight {
   double response = 0;  // the most by which a pixel errs for an error of 1 in a sum of splats
   double allowed = 1;   // the least of max(1, I) in any pixel and channel
+  double most = 0;      // the most of I
   double even = 0;      // by how much a pixel errs where every splat errs by the whole of itself;
   // and over max(1, I) of that pixel, where each errs by up to the whole of itself: of either sign,
   double parts = 0;

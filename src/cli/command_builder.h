@@ -1,6 +1,5 @@
 #pragma once
 
-// CLI11 is slow to compile: only files that describe commands include this one.
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <functional>
@@ -8,6 +7,9 @@
 #include <sstream>
 #include <string>
 
+#include "cli/console.h"
+
+// CLI11 is slow to compile: only files that describe commands include this one.
 namespace splotchcl::cli {
 
 using Run = std::function<int()>;
@@ -40,5 +42,20 @@ CLI::App* add_command(CLI::App& app, Run& run, const char* name, const char* des
       [&run, options, command] { run = [options, command] { return command(*options); }; });
   return sub;
 }
+
+// Describe `splotchcl info`, `fields` and `palettes`: what a snapshot holds, and the names that
+// scenes may use.
+void add_info(CLI::App& app, Run& run, Console& console);
+void add_index(CLI::App& app, Run& run, Console& console);
+void add_fields(CLI::App& app, Run& run, Console& console);
+void add_palettes(CLI::App& app, Run& run, Console& console);
+
+// Describe `splotchcl galaxy` and `splotchcl evolve`.
+void add_galaxy(CLI::App& app, Run& run, Console& console);
+void add_evolve(CLI::App& app, Run& run, Console& console);
+
+void add_map(CLI::App& app, Run& run, Console& console);
+
+void add_view(CLI::App& app, Run& run, Console& console);
 
 }  // namespace splotchcl::cli

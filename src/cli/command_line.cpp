@@ -1,5 +1,3 @@
-#include "cli/command_line.h"
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <map>
@@ -11,13 +9,9 @@
 #include "cli/command_tree.h"
 #include "cli/commands.h"
 #include "cli/compiler_process.h"
-#include "cli/galaxy_commands.h"
-#include "cli/list_commands.h"
-#include "cli/map_command.h"
 #include "cli/pages.h"
 #include "cli/version.h"
-#include "cli/view_command.h"
-#include "common/nearest_name.h"
+#include "common/words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::cli {

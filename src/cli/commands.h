@@ -158,4 +158,8 @@ struct EvolveOptions {
 };
 int run_evolve(const EvolveOptions& options, Console& console);
 
+// Carries out what the arguments ask for. The result is the exit code. Throws UsageError
+// for arguments that cannot be understood.
+int run_command_line(int argc, char** argv, Console& console);
+
 }  // namespace splotchcl::cli

@@ -1,6 +1,20 @@
+#include "cli/draw_options.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iostream>
+#include <numeric>
+#include <sstream>
+
 #include "cli/commands.h"
+#include "cli/json_answer.h"
+#include "common/unfinished_file.h"
+#include "common/utf8.h"
+#include "estimate/frame_estimate.h"
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
+#include "splotchcl/views.h"
 
 namespace splotchcl::cli {
 
@@ -14,6 +28,173 @@ std::vector<std::string> settings_of(const DrawOptions& options) {
   }
   if (options.cache_smoothing_lengths) settings.push_back("read.cache_smoothing_lengths=true");
   return settings;
+}
+
+namespace {
+
+std::string explain_estimate(const FramePlan& plan, const Frame& frame, const Scene& scene,
+                             const DrawOptions& options, int pictures) {
+  if (options.reference) return "time: no estimate for the reference renderer\n";
+  try {
+    const int drawings = pictures * static_cast<int>(views_of(scene, frame).size());
+    return explain(estimate_frame(frame, plan, options.device, options.memory_bytes), drawings);
+  } catch (const DeviceError&) {
+    return "memory and time: no estimate without an OpenCL device\n";
+  }
+}
+
+}  // namespace
+
+void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& scene,
+                       const DrawOptions& options, int pictures) {
+  std::istringstream lines(explain(plan, frame) +
+                           explain_estimate(plan, frame, scene, options, pictures));
+  for (std::string line; std::getline(lines, line);)
+    std::cout << "# " << printable(line) << "\n";
+  std::cout << "\n" << format_scene(scene);
+}
+
+namespace {
+
+Json particles_to_json(const RenderStats& stats) {
+  return {
+      {"total", stats.particles}, {"bad", stats.bad_particles}, {"drawn", stats.drawn_particles}};
+}
+
+Json plan_to_json(const FramePlan& plan) {
+  return {{"light", name(plan.light)},
+          {"precision", name(plan.precision)},
+          {"source", plan.source},
+          {"needs_sort", plan.needs_sort()},
+          {"truncation_share", plan.shares.truncation},
+          {"coarse_share", plan.shares.coarse_grids},
+          {"arithmetic_share", plan.shares.arithmetic()}};
+}
+
+Json check_to_json(const FrameCheck& check) {
+  return {{"is_bound", check.is_bound}, {"errors_of_promise", check.errors_of_promise},
+          {"ends", check.worst.ends},   {"even", check.worst.even},
+          {"peaks", check.worst.peaks}, {"slabs", check.worst.slabs},
+          {"rest", check.worst.rest}};
+}
+
+double sum_of(const std::vector<StageTime>& times) {
+  return std::accumulate(times.begin(), times.end(), 0.0,
+                         [](double sum, const StageTime& time) { return sum + time.seconds; });
+}
+
+Json seconds_to_json(const RenderReport& report) {
+  return {{"read", report.read_seconds},
+          {"draw", report.draw_seconds},
+          {"serial", sum_of(report.stats.serial)},
+          {"compile", report.stats.build_seconds},
+          {"write", report.write_seconds}};
+}
+
+Json stages_to_json(const std::vector<StageTime>& times) {
+  Json stages = Json::array();
+  for (const StageTime& stage : times) {
+    stages.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+  }
+  return stages;
+}
+
+// One process has nobody to share with.
+Json processes_to_json(const std::vector<ProcessStats>& processes) {
+  Json ranks = Json::array();
+  for (const ProcessStats& process : processes) {
+    ranks.push_back({{"host", process.host},
+                     {"particles", process.particles},
+                     {"splats", process.splats},
+                     {"sent_bytes", process.sent_bytes},
+                     {"seconds", process.seconds}});
+  }
+  return {{"number", std::max<std::size_t>(1, processes.size())}, {"ranks", ranks}};
+}
+
+// What a scene may leave to its picture.
+Json finish_to_json(const std::optional<FinishSettings>& finish) {
+  if (!finish || !finish->exposure || !finish->white) return nullptr;
+  return {{"exposure", *finish->exposure}, {"white", *finish->white}};
+}
+
+Json to_json(const RenderReport& report) {
+  const Frame& frame = report.frame;
+  return {{"version", SPLOTCHCL_VERSION},
+          {"scene", report.scene},
+          {"snapshot", report.snapshot},
+          {"output", report.output},
+          {"width", frame.width},
+          {"height", frame.height},
+          {"crop", {frame.crop.x, frame.crop.y, frame.crop.width, frame.crop.height}},
+          {"tolerance", frame.tolerance},
+          {"plan", plan_to_json(report.plan)},
+          {"finish", finish_to_json(report.finish)},
+          {"check", check_to_json(report.stats.check)},
+          {"renderer", report.reference ? "reference" : "device"},
+          {"device", report.stats.device},
+          {"particles", particles_to_json(report.stats)},
+          {"drawn_most_exactly", report.stats.drawn_most_exactly},
+          {"tile_entries", report.stats.tile_entries},
+          {"blocks_left_out", report.stats.blocks_left_out},
+          {"windows", report.stats.windows},
+          {"device_bytes", report.stats.device_bytes},
+          {"processes", processes_to_json(report.stats.processes)},
+          {"seconds", seconds_to_json(report)},
+          {"stages", stages_to_json(report.stats.stages)},
+          {"serial", stages_to_json(report.stats.serial)}};
+}
+
+Json to_json(const FilmFrameStats& frame) {
+  return {{"frame", frame.frame},
+          {"particles", particles_to_json(frame.stats)},
+          {"tile_entries", frame.stats.tile_entries},
+          {"blocks_left_out", frame.stats.blocks_left_out},
+          {"windows", frame.stats.windows},
+          {"device_bytes", frame.stats.device_bytes},
+          {"processes", processes_to_json(frame.stats.processes)},
+          {"seconds",
+           {{"draw", frame.stats.total_seconds},
+            {"serial", sum_of(frame.stats.serial)},
+            {"compile", frame.stats.build_seconds}}},
+          {"stages", stages_to_json(frame.stats.stages)},
+          {"serial", stages_to_json(frame.stats.serial)}};
+}
+
+Json to_json(const FilmStats& film) {
+  Json frames = Json::array();
+  double draw_seconds = 0;
+  for (const FilmFrameStats& frame : film.frames) {
+    frames.push_back(to_json(frame));
+    draw_seconds += frame.stats.total_seconds;
+  }
+  return {{"version", SPLOTCHCL_VERSION},
+          {"scene", film.scene},
+          {"output", film.output},
+          {"width", film.result.width},
+          {"height", film.result.height},
+          {"renderer", film.reference ? "reference" : "device"},
+          {"device", film.frames.empty() ? "" : film.frames.front().stats.device},
+          {"frames_of_film", film.result.frames},
+          {"seconds", {{"draw", draw_seconds}}},
+          {"frames", frames}};
+}
+
+void write(const std::filesystem::path& path, const Json& json) {
+  const std::string text = json_text(json);
+  UnfinishedFile file(path);
+  file.write(text.data(), text.size());
+  file.finish();
+}
+
+}  // namespace
+
+void write_stats(const std::filesystem::path& path, const RenderReport& report) {
+  write(path, to_json(report));
+}
+
+void write_stats(const std::filesystem::path& path, const FilmStats& stats) {
+  write(path, to_json(stats));
 }
 
 }  // namespace splotchcl::cli

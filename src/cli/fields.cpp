@@ -14,7 +14,6 @@
 #include "map/map_units.h"
 #include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"
-#include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
 

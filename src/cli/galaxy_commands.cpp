@@ -1,5 +1,4 @@
-#include "cli/galaxy_commands.h"
-
+#include "cli/command_builder.h"
 #include "cli/commands.h"
 
 namespace splotchcl::cli {

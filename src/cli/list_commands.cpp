@@ -1,5 +1,4 @@
-#include "cli/list_commands.h"
-
+#include "cli/command_builder.h"
 #include "cli/commands.h"
 
 namespace splotchcl::cli {

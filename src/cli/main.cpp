@@ -10,14 +10,14 @@
 #include <new>
 #include <system_error>
 
-#include "cli/command_line.h"
+#include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/processes.h"
 #include "common/crash_guard.h"
 #include "common/quiet_errors.h"
 #include "common/shrink_guard.h"
 #include "device/opencl/pocl_cache.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "splotchcl/error.h"
 
 namespace {

@@ -6,13 +6,12 @@
 #include <optional>
 
 #include "cli/commands.h"
-#include "cli/explanation.h"
+#include "cli/draw_options.h"
 #include "cli/processes.h"
-#include "cli/render_stats.h"
 #include "common/unfinished_file.h"
 #include "film/frames/film_scene.h"
-#include "film/movie/frame_range.h"
-#include "ranks/agreement.h"
+#include "film/movie/numbered_files.h"
+#include "ranks/exchange.h"
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"
 #include "splotchcl/load.h"

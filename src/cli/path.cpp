@@ -6,7 +6,6 @@
 
 #include "cli/commands.h"
 #include "common/output_files.h"
-#include "film/frames/film_manifest.h"
 #include "film/frames/film_scene.h"
 #include "film/path_plot/path_plot.h"
 #include "scene/constants.h"

@@ -2,9 +2,8 @@
 
 #include "cli/version.h"
 #include "common/crash_guard.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "ranks/mpi_library.h"
-#include "ranks/shared_host.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::cli {

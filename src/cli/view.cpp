@@ -3,19 +3,55 @@
 #include <chrono>
 #include <iostream>
 
+#include "cli/command_builder.h"
 #include "cli/commands.h"
 #include "common/unfinished_file.h"
+#include "splotchcl/error.h"
 #include "splotchcl/open_scene.h"
 #include "splotchcl/snapshot.h"
 #include "view/live_view.h"
 
 namespace splotchcl::cli {
+
+void add_view(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<ViewOptions>();
+  CLI::App* const sub =
+      add_command<ViewOptions>(app, run, "view", "Explore a scene in a browser", options,
+                               [&console](const ViewOptions& o) { return run_view(o, console); });
+  sub->add_option("SCENE", options->scene, wrapped("A scene file (.toml, .par) or a snapshot"))
+      ->required();
+  sub->add_option("--port", options->port, wrapped("Port of the page; 0: any that is free"))
+      ->type_name("N")
+      ->capture_default_str();
+  sub->add_option("--bind", options->address,
+                  wrapped("Address to listen on. Any other than this machine's own lets others on "
+                          "the network in, who can see the token on its way"))
+      ->type_name("ADDRESS")
+      ->capture_default_str();
+  sub->add_option("--device", options->device,
+                  wrapped("Part of an OpenCL device's name; splotchcl devices lists them"))
+      ->type_name("NAME");
+  sub->add_option("--set", options->settings, wrapped("Set a key of the scene; can be repeated"))
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  sub->add_option("--size", options->size, wrapped("Width and height of the picture, in pixels"))
+      ->type_name("WIDTHxHEIGHT");
+  sub->footer(
+      "Prints the page's address, which holds a secret token, and serves it until Ctrl-C.\n"
+      "For a remote machine run splotchcl view FILE --port 8765 there and\n"
+      "ssh -L 8765:127.0.0.1:8765 MACHINE here, and open the address printed there.\n"
+      "Examples:\n"
+      "  splotchcl view snapshot_006\n"
+      "  splotchcl view scene.toml --port 8765");
+}
+
 namespace {
 
 constexpr std::chrono::milliseconds patience_at_the_end(1000);
 
-// Nothing ends a device that draws.
-[[noreturn]] void leave_what_is_drawn() {
+// Nothing ends a device that draws. What is taken apart would give back the handler of Ctrl-C, and
+// the second one would end the program by its signal.
+[[noreturn]] void leave_all_as_it_is() {
   remove_unfinished_files();
   ::_exit(0);
 }
@@ -48,9 +84,13 @@ int run_view(const ViewOptions& options, Console& console) {
   console.note_each_once(notes);
   console.done("the page is at the address below until Ctrl-C");
   std::cout << page.address() << std::endl;
+  if (!std::cout) {
+    throw DataError(
+        "standard output could not be written, where the page's address stands: is the disk full?");
+  }
   page.run();
-  if (!page.end_within(patience_at_the_end)) leave_what_is_drawn();
-  return 0;
+  page.end_within(patience_at_the_end);
+  leave_all_as_it_is();
 }
 
 }  // namespace splotchcl::cli

@@ -14,8 +14,8 @@
 #include <sstream>
 #include <thread>
 
+#include "common/folders.h"
 #include "common/reason.h"
-#include "common/temporary_folder.h"
 #include "splotchcl/error.h"
 
 extern char** environ;

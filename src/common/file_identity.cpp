@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/reason.h"
-#include "scene/word_hash.h"
+#include "scene/hash.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

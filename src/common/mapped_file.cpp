@@ -6,7 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 
 #include "common/shrink_guard.h"
@@ -110,6 +112,33 @@ MappedFile::~MappedFile() {
   if (data_ == nullptr || !unpacked_.empty()) return;
   forget_mapping(data_);
   ::munmap(const_cast<std::byte*>(data_), size_);
+}
+
+bool is_another_file(const std::filesystem::path& path, const FileMark& mark) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) return false;
+  if (!std::filesystem::is_regular_file(path, ignored)) return true;
+  const auto file = MappedFile::open_if_possible(path);
+  if (file == nullptr) return true;  // nobody knows
+  const auto there = static_cast<std::size_t>(std::min<std::uint64_t>(file->size(), mark.size()));
+  return there > 0 && std::memcmp(file->data(), mark.data(), there) != 0;
+}
+
+namespace {
+
+constexpr std::uint64_t largest_text_file = 16 * 1024 * 1024;
+
+}  // namespace
+
+std::string read_text_file(const std::filesystem::path& path) {
+  const auto file = MappedFile::open(path);
+  if (file->size() > largest_text_file) {
+    throw DataError(fmt::format("{}: found {} bytes, expected a text file of at most {}",
+                                path.string(), file->size(), largest_text_file));
+  }
+  if (file->size() == 0) return "";
+  return std::string(reinterpret_cast<const char*>(file->data()),
+                     static_cast<std::size_t>(file->size()));
 }
 
 }  // namespace splotchcl

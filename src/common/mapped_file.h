@@ -2,10 +2,12 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace splotchcl {
@@ -52,5 +54,16 @@ class MappedFile {
   ::ino_t node_ = 0;
   std::vector<std::byte> unpacked_;  // instead of a mapping
 };
+
+// What a file of the program's own begins with.
+using FileMark = std::array<char, 16>;
+
+// Whether something is there that is not such a file, and must not be overwritten. One that has
+// been cut is.
+bool is_another_file(const std::filesystem::path& path, const FileMark& mark);
+
+// A small text file as a whole. Throws DataError when it cannot be read, or is so large
+// that it is no text file of ours.
+std::string read_text_file(const std::filesystem::path& path);
 
 }  // namespace splotchcl

@@ -13,9 +13,8 @@
 #include <system_error>
 #include <vector>
 
-#include "common/folder_of.h"
+#include "common/folders.h"
 #include "common/reason.h"
-#include "common/temporary_folder.h"
 #include "common/unfinished_name.h"
 #include "splotchcl/error.h"
 

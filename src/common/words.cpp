@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 namespace splotchcl {
 
@@ -31,6 +33,56 @@ std::optional<double> parse_number(const std::string& text) {
   const auto [rest, error] = fast_float::from_chars(begin, end, value);
   if (error != std::errc() || rest != end) return std::nullopt;
   return value;
+}
+
+namespace {
+
+// Beyond this nobody mistypes a name; it also bounds the work for hostile input.
+constexpr std::size_t longest_name = 200;
+
+// Insertions, deletions, changes and swaps of neighbours that turn a into b.
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j)
+    last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, change});
+      const bool is_swap = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (is_swap) row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+    std::swap(before_last, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+std::size_t largest_distance(const std::string& a, const std::string& b) {
+  return std::max<std::size_t>(1, std::max(a.size(), b.size()) / 3);
+}
+
+}  // namespace
+
+std::optional<std::string> nearest_name(const std::string& name,
+                                        const std::vector<std::string>& candidates) {
+  if (name.size() > longest_name) return std::nullopt;
+  const std::string wanted = lower_case(name);
+  std::optional<std::string> nearest;
+  std::size_t nearest_distance = std::numeric_limits<std::size_t>::max();
+  for (const std::string& candidate : candidates) {
+    const std::size_t distance = edit_distance(wanted, lower_case(candidate));
+    if (distance < nearest_distance && distance <= largest_distance(wanted, candidate)) {
+      nearest = candidate;
+      nearest_distance = distance;
+    }
+  }
+  return nearest;
+}
+
+std::string did_you_mean(const std::optional<std::string>& name) {
+  return name ? "; did you mean " + *name + "?" : "";
 }
 
 }  // namespace splotchcl

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace splotchcl {
 
@@ -17,5 +18,13 @@ std::string lower_ending(const std::filesystem::path& path);
 
 // The number that is all of the text, finite or not; a plus sign may stand before it.
 std::optional<double> parse_number(const std::string& text);
+
+// The candidate that `name` is most likely a misspelling of, or none when nothing is
+// near: more than a third of its letters would have to change. Case counts little.
+std::optional<std::string> nearest_name(const std::string& name,
+                                        const std::vector<std::string>& candidates);
+
+// "; did you mean x?", or nothing.
+std::string did_you_mean(const std::optional<std::string>& name);
 
 }  // namespace splotchcl

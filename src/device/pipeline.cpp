@@ -6,7 +6,7 @@
 #include "device/stages/carry_splats.h"
 #include "device/stages/project_parameters.h"
 #include "device/walk/leaf_sums.h"
-#include "ranks/values.h"
+#include "ranks/exchange.h"
 
 namespace splotchcl {
 

@@ -16,10 +16,8 @@
 #include "device/pipeline.h"
 #include "device/ranks/fetch_particles.h"
 #include "parallel/thread_pool.h"
-#include "parallel/thread_seconds.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "ranks/spread_particles.h"
-#include "ranks/values.h"
 #include "scene/picture_limits.h"
 #include "splotchcl/error.h"
 

@@ -9,7 +9,7 @@
 #include "estimate/device_memory.h"
 #include "estimate/drawing_time.h"
 #include "estimate/splat_work.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 
 namespace splotchcl {
 

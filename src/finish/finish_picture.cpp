@@ -2,12 +2,11 @@
 
 #include <memory>
 
-#include "finish/adjust_light.h"
-#include "finish/color_bar.h"
-#include "finish/cross_fade.h"
+#include "finish/bars.h"
+#include "finish/joined_pictures.h"
 #include "finish/placeholders.h"
-#include "finish/scale_bar.h"
-#include "image/font_folders.h"
+#include "finish/tone.h"
+#include "image/text.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "finish/color_bar.h"
+#include "finish/bars.h"
 #include "finish/inset.h"
-#include "finish/text_style.h"
+#include "finish/overlay.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/views.h"
 

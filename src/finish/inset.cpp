@@ -6,8 +6,8 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
-#include "common/nearest_name.h"
-#include "finish/adjust_light.h"
+#include "common/words.h"
+#include "finish/tone.h"
 #include "image/background_image.h"
 #include "scene/constants.h"
 #include "splotchcl/error.h"

@@ -2,8 +2,7 @@
 
 #include <optional>
 
-#include "finish/layout.h"
-#include "finish/text_style.h"
+#include "finish/overlay.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/stereo.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace splotchcl {
 namespace {
@@ -45,6 +46,219 @@ void apply_tone(Image& image, ToneCurve curve, double white) {
     for (int c = 0; c < 3; ++c)
       pixel[c] = static_cast<float>(factor * pixel[c]);
   }
+}
+
+namespace {
+
+constexpr double bright_part = 0.003;  // of what matter fills
+constexpr double bright_light = 0.98;  // of white, or a little more, in what that part exceeds
+constexpr double filled_light = 1e-3;  // of white
+constexpr double seen_part = 0.25;     // of all pixels
+constexpr double seen_light = 0.03;    // of white
+constexpr double steps_per_stop = 20;
+constexpr double most_stops = 30;  // that exposure lifts more than what makes white 1
+
+// The upper bits of a float >= 0 rise with it: eight of the fraction are left.
+constexpr int dropped_bits = 15;
+constexpr std::size_t bins = (std::size_t{0x7f800000U} >> dropped_bits) + 1;
+
+std::size_t bin_of(float light) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &light, sizeof bits);
+  return bits >> dropped_bits;
+}
+
+double lower_edge(std::size_t bin) {
+  const auto bits = static_cast<std::uint32_t>(bin << dropped_bits);
+  float light = 0;
+  std::memcpy(&light, &bits, sizeof light);
+  return light;
+}
+
+// What exceeds this is at most a part of what matter fills, which depends on it in turn: found from
+// below, so that bright pixels that are few do not hide the others. What is fainter than pictures
+// are promised to be right (the default tolerance), or a thousandth of all that is there, does not
+// count: clouds fade without an end.
+double light_of_bright(const LightHistogram& light) {
+  constexpr double promised = 1e-3;
+  double lowest = std::min(promised, filled_light * light.exceeded_by(0, 0));
+  for (;;) {
+    const double bright = light.exceeded_by(bright_part, lowest);
+    if (!(filled_light * bright > lowest)) return bright;
+    lowest = filled_light * bright;
+  }
+}
+
+// Light that is to be seen.
+double faint_light(const LightHistogram& light, double bright) {
+  const double filled = light.part_from(filled_light * bright);
+  return std::max(light.reached_by(std::min(seen_part, filled)), filled_light * bright);
+}
+
+double rounded_up(double stops) {
+  return std::ceil(stops * steps_per_stop - 1e-6) / steps_per_stop;
+}
+
+double rounded_down(double stops) {
+  return std::floor(stops * steps_per_stop + 1e-6) / steps_per_stop;
+}
+
+// The least exposure, from `lowest` on, that shows `faint` light as it should be seen.
+double lifting_exposure(ToneCurve curve, double faint, double bright, double lowest) {
+  for (double stops = lowest; stops < lowest + most_stops; stops += 1 / steps_per_stop) {
+    const double factor = std::exp2(stops);
+    if (tone(curve, factor * faint, factor * bright) >= seen_light) return stops;
+  }
+  return lowest;
+}
+
+// Three digits, and not less.
+double rounded_white(double white) {
+  const double unit = std::pow(10, std::floor(std::log10(white)) - 2);
+  return std::ceil(white / unit * (1 - 1e-12)) * unit;
+}
+
+// Within what a scene file may say, as is white.
+double find_exposure(const FinishSettings& finish, double faint, double bright) {
+  constexpr double most = 100;
+  if (finish.white) return std::clamp(rounded_down(std::log2(*finish.white / bright)), -most, most);
+  const double lowest = std::clamp(rounded_up(-std::log2(bright)), -most, most - most_stops);
+  // A line shows as much at any exposure.
+  if (finish.tone == ToneCurve::linear) return lowest;
+  return lifting_exposure(finish.tone, faint, bright, lowest);
+}
+
+// What is even and bright stays below white, also where a curve is flat there.
+double find_white(ToneCurve curve, double exposed) {
+  double white = exposed;
+  for (int i = 0; i < 50 && tone(curve, exposed, white) > bright_light; ++i)
+    white *= 1.02;
+  return std::clamp(rounded_white(white), 1e-30, 1e30);
+}
+
+}  // namespace
+
+LightHistogram::LightHistogram() : counts_(bins) {}
+
+void LightHistogram::add(const Image& image) {
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+    const float* const pixel = &image.pixels[i];
+    const float brightest = std::max({pixel[0], pixel[1], pixel[2]});
+    const bool is_light = brightest > 0 && std::isfinite(brightest);
+    ++counts_[is_light ? bin_of(brightest) : 0];
+  }
+  pixels_ += image.pixels.size() / 4;
+}
+
+double LightHistogram::exceeded_by(double part, double lowest) const {
+  const std::size_t first = std::max<std::size_t>(1, bin_of(static_cast<float>(lowest)));
+  std::uint64_t all = 0;
+  for (std::size_t bin = first; bin < bins; ++bin)
+    all += counts_[bin];
+  const auto most = static_cast<std::uint64_t>(part * static_cast<double>(all));
+  std::uint64_t above = 0;
+  for (std::size_t bin = bins; bin-- > first;) {
+    above += counts_[bin];
+    if (above > most) return lower_edge(bin + 1);
+  }
+  return 0;
+}
+
+double LightHistogram::part_from(double lowest) const {
+  const std::size_t first = std::max<std::size_t>(1, bin_of(static_cast<float>(lowest)));
+  std::uint64_t count = 0;
+  for (std::size_t bin = first; bin < bins; ++bin)
+    count += counts_[bin];
+  return pixels_ == 0 ? 0 : static_cast<double>(count) / static_cast<double>(pixels_);
+}
+
+double LightHistogram::reached_by(double part) const {
+  const double wanted = part * static_cast<double>(pixels_);
+  std::uint64_t count = 0;
+  for (std::size_t bin = bins; bin-- > 1;) {
+    count += counts_[bin];
+    if (static_cast<double>(count) >= wanted) return lower_edge(bin);
+  }
+  return 0;
+}
+
+bool has_open_tone(const FinishSettings& finish) {
+  return !finish.exposure || !finish.white;
+}
+
+void take_tone(const FinishSettings& found, FinishSettings& finish) {
+  if (!finish.exposure) finish.exposure = found.exposure;
+  if (!finish.white) finish.white = found.white;
+}
+
+std::optional<FinishSettings> with_tone_of(const FinishSettings& finish,
+                                           const LightHistogram& light) {
+  if (!has_open_tone(finish)) return finish;
+  const double bright = light_of_bright(light);
+  if (!(bright > 0)) return std::nullopt;
+  FinishSettings found = finish;
+  if (!finish.exposure) found.exposure = find_exposure(finish, faint_light(light, bright), bright);
+  if (!finish.white) found.white = find_white(finish.tone, std::exp2(*found.exposure) * bright);
+  return found;
+}
+
+FinishSettings with_any_tone(const FinishSettings& finish, const LightHistogram& light) {
+  if (const std::optional<FinishSettings> found = with_tone_of(finish, light)) return *found;
+  FinishSettings settings = finish;
+  settings.exposure = finish.exposure.value_or(0);
+  settings.white = finish.white.value_or(1);
+  return settings;
+}
+
+namespace {
+
+void expose(Image& image, double stops) {
+  if (stops == 0) return;
+  const auto factor = static_cast<float>(std::exp2(stops));
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+    for (std::size_t c = 0; c < 3; ++c)
+      image.pixels[i + c] *= factor;
+  }
+}
+
+void saturate(Image& image, double saturation) {
+  if (saturation == 1) return;
+  const auto part = static_cast<float>(saturation);
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+    float* const pixel = &image.pixels[i];
+    // Rec. 709's weights.
+    const float luminance = 0.2126F * pixel[0] + 0.7152F * pixel[1] + 0.0722F * pixel[2];
+    for (int c = 0; c < 3; ++c)
+      pixel[c] = std::max(0.0F, luminance + part * (pixel[c] - luminance));
+  }
+}
+
+void change_contrast(Image& image, double contrast, double pivot) {
+  if (contrast == 1) return;
+  const auto exponent = static_cast<float>(contrast);
+  const auto fixed = static_cast<float>(pivot);
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      float& value = image.pixels[i + c];
+      value = fixed * std::pow(std::max(0.0F, value / fixed), exponent);
+    }
+  }
+}
+
+}  // namespace
+
+void adjust_light(Image& image, const FinishSettings& finish, double gamma) {
+  expose(image, finish.exposure.value());
+  apply_tone(image, finish.tone, finish.white.value());
+  saturate(image, finish.saturation);
+  change_contrast(image, finish.contrast, std::pow(finish.contrast_pivot, gamma));
+}
+
+std::array<float, 3> light_of(const DisplayColor& color, double gamma) {
+  std::array<float, 3> light;
+  for (std::size_t c = 0; c < 3; ++c)
+    light[c] = static_cast<float>(std::pow(color[c], gamma));
+  return light;
 }
 
 }  // namespace splotchcl

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -47,5 +49,14 @@ std::vector<const SnapshotFormat*> snapshot_formats();
 // The format of a file; null where it has none of them. Throws DataError when the file cannot
 // be opened.
 const SnapshotFormat* find_format(const std::filesystem::path& path);
+
+// More columns than any table of particles has: what asks for more is damaged, or no such table.
+constexpr std::size_t most_columns = 4096;
+
+// Deflate packs no better than 1032 to 1.
+constexpr std::uint64_t best_packing_of_deflate = 1032;
+
+// Whether two threads may read snapshots at the same time: only where HDF5 was built for it.
+bool can_read_concurrently();
 
 }  // namespace splotchcl

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "parallel/available_memory.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 
 namespace splotchcl {
 namespace {

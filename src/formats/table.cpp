@@ -11,7 +11,7 @@
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
-#include "snapshot/unit_ratio.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

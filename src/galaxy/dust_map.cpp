@@ -2,11 +2,98 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
 
-#include "galaxy/blur.h"
+#include "galaxy/even_points.h"
 
 namespace splotchcl {
 namespace {
+
+constexpr int knots = 1025;
+constexpr double step = 1.0 / 64;
+
+}  // namespace
+
+Veil::Veil(double dust_height, double star_height) {
+  constexpr int parts = 64;
+  for (int i = 0; i < parts; ++i) {
+    const double height = star_height * normal_quantile((i + 0.5) / parts);
+    dust_above_.push_back(dust_height > 0 ? 0.5 * std::erfc(height / dust_height * M_SQRT1_2)
+                                          : (height < 0 ? 1.0 : 0.0));
+  }
+  for (int knot = 0; knot < knots; ++knot)
+    transmission_.push_back(exact_transmission(knot * step));
+}
+
+double Veil::exact_transmission(double depth) const {
+  double sum = 0;
+  for (const double part : dust_above_)
+    sum += std::exp(-depth * part);
+  return sum / static_cast<double>(dust_above_.size());
+}
+
+double Veil::transmission(double depth) const {
+  const double knot = depth / step;
+  if (!(knot < knots - 1)) return exact_transmission(depth);
+  const auto i = static_cast<std::size_t>(knot);
+  const double part = knot - static_cast<double>(i);
+  return (1 - part) * transmission_[i] + part * transmission_[i + 1];
+}
+
+double Veil::depth(double transmission, double largest) const {
+  const auto below =
+      std::lower_bound(transmission_.begin(), transmission_.end(), transmission, std::greater<>());
+  if (below == transmission_.begin()) return 0;
+  if (below == transmission_.end()) return largest;
+  const double part = (below[-1] - transmission) / (below[-1] - below[0]);
+  const auto i = static_cast<double>(below - transmission_.begin() - 1);
+  return std::min(largest, (i + part) * step);
+}
+
+namespace {
+
+// weights[i] is that of what lies i away.
+std::vector<double> gaussian_weights(double deviation) {
+  constexpr double farthest = 3;  // deviations
+  std::vector<double> weights;
+  for (int i = 0; i <= std::ceil(farthest * deviation); ++i)
+    weights.push_back(std::exp(-i * i / (2 * deviation * deviation)));
+  return weights;
+}
+
+// One line of `count` values, `stride` apart.
+void blur_line(const double* in, double* out, int count, std::size_t stride,
+               const std::vector<double>& weights) {
+  const int reach = static_cast<int>(weights.size()) - 1;
+  for (int i = 0; i < count; ++i) {
+    double sum = 0, weight = 0;
+    for (int j = std::max(0, i - reach); j <= std::min(count - 1, i + reach); ++j) {
+      const double share = weights[static_cast<std::size_t>(std::abs(i - j))];
+      sum += share * in[static_cast<std::size_t>(j) * stride];
+      weight += share;
+    }
+    out[static_cast<std::size_t>(i) * stride] = sum / weight;
+  }
+}
+
+// The mean over a Gaussian of this standard deviation in pixels around each of a picture's values,
+// rows from the top; what lies outside of the picture does not count.
+std::vector<double> blurred(const std::vector<double>& values, int width, double deviation) {
+  if (!(deviation > 0)) return values;
+  const std::vector<double> weights = gaussian_weights(deviation);
+  const auto across = static_cast<std::size_t>(width);
+  const int height = static_cast<int>(values.size() / across);
+  std::vector<double> rows(values.size()), result(values.size());
+  for (int y = 0; y < height; ++y) {
+    const std::size_t first = static_cast<std::size_t>(y) * across;
+    blur_line(&values[first], &rows[first], width, 1, weights);
+  }
+  for (std::size_t x = 0; x < across; ++x)
+    blur_line(&rows[x], &result[x], height, across, weights);
+  return result;
+}
 
 constexpr double base_depth = 0.4;    // between the lanes, where there is most light
 constexpr double deepest_lane = 2.5;  // of a lane: it hides what lies behind

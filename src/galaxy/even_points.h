@@ -5,7 +5,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
-#include "generate/even_place.h"
+#include "generate/random.h"
 
 // Points that are spread more evenly than at random, so that light which is even in the picture is
 // even from every side: numbers of random points vary by their root.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "galaxy/bulge_profile.h"
 #include "galaxy/light_map.h"
 #include "generate/random.h"
 #include "splotchcl/galaxy.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "common/text_file.h"
+#include "common/mapped_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "galaxy/light.h"
+#include "splotchcl/image.h"
 
 namespace splotchcl {
 
@@ -17,5 +18,17 @@ Sky measure_sky(const Image& picture);
 
 // The same picture with the sky's light taken away, none below 0.
 Image without_sky(const Image& picture, const Sky& sky);
+
+struct StarCriteria {
+  double contrast = 2.5;   // of a star against the median around it
+  double least_light = 0;  // above that median
+  int center_x = 0, center_y = 0;
+  double protected_radius = 0;  // around the centre: a galaxy's nucleus is a point, too
+};
+
+// Replaces points of light by the median of what surrounds them: pixels far brighter than the
+// median of a ring around them, unless both red and blue exceed green, as in the clouds that
+// shine in hydrogen's red line among young stars. Returns how many pixels were replaced.
+std::uint64_t remove_foreground_stars(Image& picture, const StarCriteria& criteria);
 
 }  // namespace splotchcl

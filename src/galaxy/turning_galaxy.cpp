@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 #include "formats/hdf5/gadget_hdf5_writer.h"
-#include "galaxy/disk_types.h"
-#include "galaxy/vector_at.h"
+#include "galaxy/matter.h"
+#include "scene/constants.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
+#include "splotchcl/snapshot.h"
 
 namespace splotchcl {
 namespace {
@@ -150,6 +153,113 @@ void write_galaxy_snapshot(const std::filesystem::path& path, const Snapshot& sn
     written.types.push_back(std::move(particles));
   }
   write_gadget_hdf5(path, written);
+}
+
+namespace {
+
+using boost::qvm::cross;
+using boost::qvm::dot;
+
+struct Turn {
+  double angle = 0;
+  double stretch = 1;  // of the distance from the axis
+};
+
+Turn first_order_step(double angle) {
+  return {std::atan(angle), std::sqrt(1 + angle * angle)};
+}
+
+Turn turn_of(double angular_speed, double myr, const TurningSettings& settings) {
+  if (settings.integrator == OrbitIntegrator::exact) return {angular_speed * myr, 1};
+  const double steps = std::floor(myr / settings.step_myr);
+  const Turn step = first_order_step(angular_speed * settings.step_myr);
+  const Turn rest = first_order_step(angular_speed * (myr - steps * settings.step_myr));
+  return {steps * step.angle + rest.angle, std::pow(step.stretch, steps) * rest.stretch};
+}
+
+Vec3 turned(const Vec3& vector, const Vec3& axis, double angle, double stretch) {
+  const Vec3 along = axis * dot(axis, vector);
+  const Vec3 across = vector - along;
+  return along + (across * std::cos(angle) + cross(axis, across) * std::sin(angle)) * stretch;
+}
+
+}  // namespace
+
+OrbitState move_on_orbit(const OrbitState& start, const Vec3& axis, double angular_speed,
+                         double myr, const TurningSettings& settings) {
+  const Turn turn = turn_of(angular_speed, myr, settings);
+  return {turned(start.position, axis, turn.angle, turn.stretch),
+          turned(start.velocity, axis, turn.angle, 1)};
+}
+
+namespace {
+
+struct DiskMatter {
+  double radius = 0, light = 0, angular_speed = 0;  // kpc, any unit, radians per Myr
+};
+
+void add_matter(std::vector<DiskMatter>& all, const Snapshot& galaxy, int type,
+                const TurningSettings& settings) {
+  const Column position = galaxy.read(type, "position"), velocity = galaxy.read(type, "velocity");
+  const Column radius = galaxy.read(type, "OrbitRadius"), axis = galaxy.read(type, "OrbitAxis");
+  const Column mass = galaxy.read(type, "mass"), color = galaxy.read(type, "Color");
+  for (std::size_t i = 0; i < radius.size(); ++i) {
+    DiskMatter matter;
+    matter.radius = static_cast<double>(radius[i]);
+    matter.light = static_cast<double>(mass[i]) *
+                   static_cast<double>(color[3 * i] + color[3 * i + 1] + color[3 * i + 2]);
+    matter.angular_speed =
+        settings.curve ? settings.curve->angular_speed(matter.radius)
+                       : shown_angular_speed({vector_at(position, i), vector_at(velocity, i)},
+                                             vector_at(axis, i));
+    all.push_back(matter);
+  }
+}
+
+// Around a radius.
+double mean_angular_speed(const std::vector<DiskMatter>& all, double radius) {
+  double sum = 0, weight = 0;
+  for (const DiskMatter& matter : all) {
+    if (std::abs(matter.radius / radius - 1) > 0.1) continue;
+    sum += matter.light * matter.angular_speed;
+    weight += matter.light;
+  }
+  return weight > 0 ? sum / weight : 0;
+}
+
+// That holds half of the light.
+double half_light_radius(std::vector<DiskMatter> all) {
+  std::sort(all.begin(), all.end(),
+            [](const DiskMatter& a, const DiskMatter& b) { return a.radius < b.radius; });
+  double total = 0, inside = 0;
+  for (const DiskMatter& matter : all)
+    total += matter.light;
+  for (const DiskMatter& matter : all) {
+    inside += matter.light;
+    if (inside >= total / 2) return matter.radius;
+  }
+  return 0;
+}
+
+}  // namespace
+
+std::optional<double> arms_hold_myr(const Snapshot& galaxy, const TurningSettings& settings) {
+  if (settings.pattern_speed) return std::nullopt;
+  std::vector<DiskMatter> all;
+  for (const ParticleTypeInfo& type : galaxy.info().types) {
+    const bool shines = find_field(type, "Color") != nullptr && has_masses(type);
+    if (is_disk_type(type.type) && shines) add_matter(all, galaxy, type.type, settings);
+  }
+  const double radius = half_light_radius(all);
+  if (!(radius > 0)) return std::nullopt;
+  constexpr double ratio = 1.25;
+  const double shear =
+      std::abs(mean_angular_speed(all, radius * ratio) - mean_angular_speed(all, radius / ratio)) /
+      (2 * std::log(ratio));
+  constexpr double pitch = 20 * pi / 180;
+  constexpr double least_shear = 1e-3;  // of the angular speed: less is rounding
+  const bool shears = shear > least_shear * mean_angular_speed(all, radius);
+  return shears ? std::optional(1 / (std::tan(pitch) * shear)) : std::nullopt;
 }
 
 }  // namespace splotchcl

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "generate/gas.h"
-#include "generate/halo_interior.h"
-#include "generate/profile.h"
+#include "generate/halo_profile.h"
 #include "scene/constants.h"
 #include "splotchcl/generate.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "generate/gas.h"
-#include "generate/profile.h"
+#include "generate/halo_profile.h"
 #include "generate/random.h"
 #include "scene/constants.h"
 #include "splotchcl/generate.h"

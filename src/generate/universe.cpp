@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generate/even_place.h"
 #include "generate/gas.h"
-#include "generate/halo_interior.h"
-#include "generate/haloes.h"
-#include "generate/profile.h"
+#include "generate/halo_profile.h"
+#include "generate/random.h"
 #include "generate/web.h"
 #include "parallel/for_blocks.h"
 #include "scene/constants.h"

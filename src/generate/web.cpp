@@ -1,15 +1,180 @@
 #include "generate/web.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <utility>
+#include <vector>
 
-#include "generate/gather.h"
-#include "generate/profile.h"
+#include "generate/halo_profile.h"
+#include "generate/waves.h"
 #include "parallel/for_blocks.h"
 #include "scene/constants.h"
 
 namespace splotchcl {
 namespace {
+
+// Contrast, in linear theory, of a ball that has collapsed.
+constexpr double collapse_contrast = 1.686;
+constexpr double ratio_of_radii = 1.2;
+
+bool is_peak(const PeriodicGrid& grid, int x, int y, int z) {
+  const float value = grid.at(x, y, z);
+  for (int i = 0; i < 27; ++i) {
+    const int dx = i % 3 - 1;
+    const int dy = i / 3 % 3 - 1;
+    const int dz = i / 9 - 1;
+    if (i != 13 && grid.at(x + dx, y + dy, z + dz) >= value) return false;
+  }
+  return true;
+}
+
+struct Peak {
+  float contrast;
+  Vec3 place;
+};
+
+std::vector<Peak> find_peaks(const PeriodicGrid& grid) {
+  std::vector<Peak> peaks;
+  const int side = grid.side();
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      for (int z = 0; z < side; ++z) {
+        if (grid.at(x, y, z) < collapse_contrast || !is_peak(grid, x, y, z)) continue;
+        const double cell = 1.0 / side;
+        peaks.push_back({grid.at(x, y, z), {{x * cell, y * cell, z * cell}}});
+      }
+    }
+  }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Peak& a, const Peak& b) { return a.contrast > b.contrast; });
+  return peaks;
+}
+
+bool lies_in_one_of(const std::vector<Halo>& haloes, const Vec3& place) {
+  return std::any_of(haloes.begin(), haloes.end(), [&](const Halo& halo) {
+    return boost::qvm::mag(periodic_difference(place, halo.birthplace)) < halo.birth_radius;
+  });
+}
+
+}  // namespace
+
+Vec3 periodic_difference(const Vec3& a, const Vec3& b) {
+  Vec3 difference;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double d = b.a[axis] - a.a[axis];
+    difference.a[axis] = d - std::round(d);
+  }
+  return difference;
+}
+
+std::vector<Halo> find_haloes(const SmoothedContrast& contrast, double largest_radius,
+                              double smallest_radius) {
+  std::vector<Halo> haloes;
+  for (double radius = largest_radius; radius >= smallest_radius; radius /= ratio_of_radii) {
+    for (const Peak& peak : find_peaks(contrast(radius))) {
+      if (lies_in_one_of(haloes, peak.place)) continue;
+      // A peak that is higher than needed would still do in a larger ball.
+      const double excess = static_cast<double>(peak.contrast) / collapse_contrast;
+      haloes.push_back({peak.place, radius * std::min(excess, ratio_of_radii), peak.place});
+    }
+  }
+  return haloes;
+}
+
+HaloMap::HaloMap(const std::vector<Halo>& haloes, int side)
+    : side_(side),
+      halo_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) *
+                static_cast<std::size_t>(side),
+            none) {
+  // Backwards, so that larger haloes, which come first, take what they overlap.
+  for (std::size_t index = haloes.size(); index-- > 0;) {
+    const Halo& halo = haloes[index];
+    const int reach = static_cast<int>(std::ceil(halo.birth_radius * side)) + 1;
+    int center[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      center[axis] = static_cast<int>(std::floor(halo.birthplace.a[axis] * side));
+    }
+    for (int dx = -reach; dx <= reach; ++dx) {
+      for (int dy = -reach; dy <= reach; ++dy) {
+        for (int dz = -reach; dz <= reach; ++dz) {
+          const Vec3 cell = {{(center[0] + dx + 0.5) / side, (center[1] + dy + 0.5) / side,
+                              (center[2] + dz + 0.5) / side}};
+          const Vec3 offset = periodic_difference(halo.birthplace, cell);
+          if (boost::qvm::mag(offset) >= halo.birth_radius) continue;
+          halo_[cell_of(cell)] = static_cast<int>(index);
+        }
+      }
+    }
+  }
+}
+
+int HaloMap::at(const Vec3& birthplace) const {
+  return halo_[cell_of(birthplace)];
+}
+
+std::size_t HaloMap::cell_of(const Vec3& place) const {
+  std::size_t index = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int cell = static_cast<int>(std::floor(place.a[axis] * side_));
+    index = index * static_cast<std::size_t>(side_) +
+            static_cast<std::size_t>((cell % side_ + side_) % side_);
+  }
+  return index;
+}
+
+namespace {
+
+// Along each axis in turn: a quarter, a half, a quarter. Adds 1/2 to the variance. Neighbors along
+// an axis are `stride` apart; whole rows of them are blurred together, in the order of memory.
+void blur_once(std::vector<float>& values, std::size_t side) {
+  for (std::size_t stride = 1; stride < values.size(); stride *= side) {
+    const std::vector<float> old = values;
+    for (std::size_t first = 0; first < values.size(); first += stride * side) {
+      for (std::size_t i = 0; i < side; ++i) {
+        const float* const here = &old[first + i * stride];
+        const float* const before = &old[first + (i + side - 1) % side * stride];
+        const float* const after = &old[first + (i + 1) % side * stride];
+        float* const blurred = &values[first + i * stride];
+        for (std::size_t j = 0; j < stride; ++j)
+          blurred[j] = 0.5F * here[j] + 0.25F * (before[j] + after[j]);
+      }
+    }
+  }
+}
+
+// How many of `places` (in the periodic unit cube) lie near each point of a grid, evenly
+// shared between the eight nearest, then averaged over a Gaussian of this width in cells.
+PeriodicGrid smoothed_density(const std::vector<Vec3>& places, int side, double width) {
+  const auto across = static_cast<std::size_t>(side);
+  std::vector<float> values(across * across * across);
+  for (const Vec3& place : places) {
+    const CellCorners corners(place, side);
+    for (int corner = 0; corner < 8; ++corner) {
+      values[corners.index(corner)] += static_cast<float>(corners.weight(corner));
+    }
+  }
+  for (int pass = 0; pass < std::lround(2 * width * width); ++pass)
+    blur_once(values, across);
+  return {side, std::move(values)};
+}
+
+// A step from `place` towards denser matter: where a Gaussian of `width` cells around it
+// has its centre of mass. Sheets become filaments and filaments sharper.
+Vec3 step_uphill(const PeriodicGrid& density, const Vec3& place, double width) {
+  const double cell = 1.0 / density.side();
+  const double here = density.interpolate(place);
+  Vec3 step = {{0, 0, 0}};
+  if (!(here > 0)) return step;
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 before = place, after = place;
+    before.a[axis] -= cell;
+    after.a[axis] += cell;
+    const double slope = (density.interpolate(after) - density.interpolate(before)) / 2;
+    step.a[axis] = std::clamp(width * width * slope / here, -width, width) * cell;
+  }
+  return step;
+}
 
 constexpr int longest_wave = 24;
 constexpr int grid_side = 96;

@@ -13,7 +13,6 @@
 #include "common/quiet_errors.h"
 #include "common/unfinished_file.h"
 #include "common/words.h"
-#include "image/exr_header.h"
 #include "image/image_library.h"
 #include "image/picture_encoders.h"
 #include "image/png_file.h"

@@ -31,4 +31,17 @@ std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, int wi
 // finite, which the format cannot hold.
 std::vector<unsigned char> encode_hdr(const std::filesystem::path& path, const Image& image);
 
+// What the numbers of a file stand for, with Rec. 709's primaries and the white of D65: display
+// values as IEC 61966-2-1 has them, or linear light.
+enum class ColorSpace { srgb, linear };
+
+// An ICC profile, version 4.2 (ICC.1:2004-10), the same bytes at any time.
+std::vector<unsigned char> color_profile(ColorSpace space);
+
+// The OpenEXR library takes memory for every attribute of a header, and for the table of where the
+// lines begin, as large as the header says, before it looks how long the file is: 2 GB for a file
+// of 1 kB. This reads the lengths alone (OpenEXR's "File Layout"). Throws DataError when one is
+// longer than the file; returns for what is no EXR file at all.
+void check_exr_header(const std::filesystem::path& path);
+
 }  // namespace splotchcl

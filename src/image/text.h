@@ -7,6 +7,13 @@
 
 namespace splotchcl {
 
+// Whether a font is named by its file's path: it holds a slash or ends in .ttf, .otf, .ttc.
+bool is_font_path(const std::string& font);
+
+// The file of a font that is named by its path, or by its name in one of the folders where
+// systems keep fonts. Throws UsageError that says what to install.
+std::filesystem::path find_font(const std::string& name);
+
 // How much of each pixel a text covers, 0 to 1, row 0 at the top. The text's box spans from
 // the tops of the first line's capitals to the last line's baseline; the mask reaches
 // beyond it for accents and descenders.

@@ -11,13 +11,12 @@
 #include <vector>
 
 #include "common/mapped_file.h"
-#include "common/marked_file.h"
 #include "common/unfinished_file.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
+#include "scene/hash.h"
+#include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
-#include "scene/streamed_column.h"
-#include "scene/word_hash.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "scene/picture_limits.h"
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/communicator.h"

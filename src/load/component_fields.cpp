@@ -6,16 +6,15 @@
 #include <numeric>
 #include <utility>
 
-#include "between/interpolated_column.h"
+#include "between/interpolation.h"
 #include "load/component_boxes.h"
 #include "load/passes.h"
 #include "parallel/available_memory.h"
 #include "ranks/rank_pass.h"
 #include "ranks/spread_particles.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
-#include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "common/physical_constants.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 #include "snapshot/field_names.h"
-#include "snapshot/unit_ratio.h"
+#include "snapshot/unit.h"
 
 namespace splotchcl {
 namespace {

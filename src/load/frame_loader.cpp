@@ -2,26 +2,127 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "finish/color_bar.h"
+#include "finish/bars.h"
 #include "finish/finish_picture.h"
 #include "image/background_image.h"
-#include "load/check_particles.h"
-#include "load/choose_palette.h"
-#include "load/decide_map.h"
+#include "load/component_fields.h"
+#include "load/components.h"
 #include "load/passes.h"
-#include "load/periodic_wrap.h"
-#include "load/rounded_positions.h"
-#include "load/suggest_scene_camera.h"
+#include "load/periodic.h"
+#include "load/placement.h"
+#include "load/suggest_camera.h"
 #include "scene/memory_advice.h"
-#include "scene/reference_column.h"
+#include "scene/particle_pass.h"
+#include "scene/particle_rules.h"
+#include "scene/scalar_map.h"
+#include "scene/statistics.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/particles.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl {
 namespace {
+
+// Throws DataError when a component has particles and all of them are bad, so that nothing of
+// it could be drawn.
+void check_particles(const DrawnComponent& component, const std::string& snapshot,
+                     const ParticlePass& pass) {
+  const Particles& particles = component.particles;
+  const auto find_one = [&](const ParticleRun& run, std::vector<std::size_t>& good) {
+    std::size_t i = run.begin;
+    while (i < run.end && is_bad(particles, i))
+      ++i;
+    if (i < run.end) good.push_back(i);
+  };
+  if (particles.count == 0 || !pass.collect<std::size_t>(find_one).empty()) return;
+  throw DataError(fmt::format(
+      "{}: component {}: none of its {} particles can be drawn: all have a position, smoothing "
+      "length, weight, colour, intensity or sort field that is not finite, a smoothing length not "
+      "above 0, or a weight or own colour below 0; splotchcl info tells which",
+      snapshot, component.name, particles.count));
+}
+
+// A limit of the scene on the scaled axis.
+std::optional<double> scaled_limit(const std::optional<double>& limit, Scaling scaling,
+                                   const std::string& label, const std::string& key) {
+  if (!limit) return std::nullopt;
+  const double value = scaled(*limit, scaling);
+  if (!std::isfinite(value)) {
+    throw UsageError(fmt::format(
+        "{}: {} is {}, expected a number > 0, since the field is scaled by its logarithm; change "
+        "the limit or the scaling",
+        label, key, *limit));
+  }
+  return value;
+}
+
+// Of a range where the data give none: 1, or so much that large values differ by it.
+double width_at(double value) {
+  return std::max(1.0, 1e-3 * std::abs(value));
+}
+
+// Limits from the data, which must leave room for a limit that the scene gives.
+ValueRange range_from_data(const Column& column, const FieldMap& map,
+                           const ComponentFields& fields) {
+  std::optional<ValueRange> bulk;
+  if (map.percentiles) {
+    bulk = percentile_range(column, map.scaling, (*map.percentiles)[0], (*map.percentiles)[1],
+                            fields.pass());
+  } else {
+    bulk = bulk_range(column, map.scaling, fields.pass());
+  }
+  if (!bulk && fields.count() == 0) return {0, 1};
+  if (!bulk) {
+    fields.note(
+        fmt::format("no particle has a {} that its scaling has a value for; all take the "
+                    "range's lower end",
+                    map.field));
+    return {0, 1};
+  }
+  if (bulk->minimum < bulk->maximum) return *bulk;
+  fields.note(fmt::format("{} is the same for all particles; they take the middle of its range",
+                          map.field));
+  const double width = width_at(bulk->minimum);
+  return {bulk->minimum - 0.5 * width, bulk->maximum + 0.5 * width};
+}
+
+// A field's way to [0, 1] with the limits that the scene leaves to the data; any where it names no
+// field. `read` gives the field's values, and is called only where a limit is left to them. `key`
+// names it in messages: "color". Throws UsageError for a limit that its scaling has no value for.
+ScalarMap decide_map(const FieldMap& map, const std::function<Column()>& read,
+                     const ComponentFields& fields, const std::string& key) {
+  ScalarMap decided;
+  if (map.field.empty()) return decided;
+  decided.scaling = map.scaling;
+  const auto minimum = scaled_limit(map.minimum, map.scaling, fields.label(), key + ".min");
+  const auto maximum = scaled_limit(map.maximum, map.scaling, fields.label(), key + ".max");
+  if (minimum && maximum) {
+    decided.minimum = *minimum;
+    decided.maximum = *maximum;
+    return decided;
+  }
+  const ValueRange data = range_from_data(read(), map, fields);
+  decided.minimum = minimum.value_or(data.minimum);
+  decided.maximum = maximum.value_or(data.maximum);
+  if (decided.minimum < decided.maximum) return decided;
+  // All data lie beyond the limit that is given: keep them all beyond it.
+  if (minimum) {
+    decided.maximum = *minimum + width_at(*minimum);
+  } else {
+    decided.minimum = decided.maximum - width_at(decided.maximum);
+  }
+  return decided;
+}
 
 // Those that lie where the scene's snapshot has them.
 std::vector<int> types_in_place(const Scene& scene) {

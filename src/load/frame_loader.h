@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "load/component_reader.h"
-#include "load/open_components.h"
+#include "load/components.h"
 #include "splotchcl/load.h"
 
 namespace splotchcl {

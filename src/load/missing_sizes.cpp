@@ -2,18 +2,120 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "load/smoothing_length_cache.h"
-#include "ranks/agreement.h"
-#include "ranks/values.h"
+#include "common/mapped_file.h"
+#include "common/unfinished_file.h"
+#include "ranks/exchange.h"
+#include "scene/hash.h"
+#include "scene/particle_columns.h"
+#include "smoothing/smoothing_lengths.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
+#include "splotchcl/particles.h"
+#include "splotchcl/snapshot.h"
 
 namespace splotchcl {
 namespace {
+
+// Smoothing lengths that were found, kept in a file beside the snapshot: for the first of its
+// files, snapshot_006.type1.smoothing_lengths. It is used only where everything that they follow
+// from is the same: positions, box and number of neighbours.
+class SmoothingLengthCache {
+ public:
+  // `key` stands for all that lengths of `count` particles follow from.
+  SmoothingLengthCache(const SnapshotInfo& info, int type, std::size_t count, std::uint64_t key);
+  static std::uint64_t key_of(const Column& position, const std::optional<BoxSides>& periodic_box,
+                              int neighbors);
+
+  const std::filesystem::path& path() const { return path_; }
+
+  // None where there is no such file, or it is of other positions or damaged.
+  std::optional<Column> read() const;
+
+  // Whether a file of this name is anything else, which is not overwritten.
+  bool is_in_the_way() const;
+
+  // Throws DataError when the file cannot be written.
+  void write(const Column& lengths) const;
+
+ private:
+  std::filesystem::path path_;
+  std::uint64_t key_ = 0;
+  std::uint64_t count_ = 0;
+};
+
+// The file: this mark, key and count in the machine's own endianness, then the lengths and their
+// checksum.
+constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
+                           'l', ' ', 'h', ' ', '1', '\n', 0,   0};
+constexpr std::size_t header_bytes = mark.size() + 2 * sizeof(std::uint64_t);
+constexpr std::size_t checksum_bytes = sizeof(std::uint64_t);
+
+SmoothingLengthCache::SmoothingLengthCache(const SnapshotInfo& info, int type, std::size_t count,
+                                           std::uint64_t key)
+    : path_(info.files.front()), key_(key), count_(count) {
+  path_ += fmt::format(".type{}.smoothing_lengths", type);
+}
+
+std::uint64_t SmoothingLengthCache::key_of(const Column& position,
+                                           const std::optional<BoxSides>& periodic_box,
+                                           int neighbors) {
+  WordHash hash;
+  hash.add(static_cast<std::uint64_t>(neighbors));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    hash.add(periodic_box ? (*periodic_box)[axis] : 0);
+  hash.add(std::uint64_t{position.size() / 3});
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    std::uint32_t bits = 0;
+    const float coordinate = position[i];
+    std::memcpy(&bits, &coordinate, sizeof bits);
+    hash.add(std::uint64_t{bits});
+  }
+  return hash.value();
+}
+
+std::optional<Column> SmoothingLengthCache::read() const {
+  const auto file = MappedFile::open_if_possible(path_);
+  const std::uint64_t length_bytes = count_ * sizeof(float);
+  if (file == nullptr || file->size() != header_bytes + length_bytes + checksum_bytes)
+    return std::nullopt;  // they are computed
+  std::array<std::uint64_t, 2> header = {};
+  std::memcpy(header.data(), file->data() + mark.size(), sizeof header);
+  const bool is_the_same = std::memcmp(file->data(), mark.data(), mark.size()) == 0 &&
+                           header[0] == key_ && header[1] == count_;
+  const std::byte* const lengths = file->data() + header_bytes;
+  std::uint64_t sum = 0;
+  std::memcpy(&sum, lengths + length_bytes, sizeof sum);
+  if (!is_the_same || sum != checksum(lengths, length_bytes)) return std::nullopt;
+  return Column(file, reinterpret_cast<const float*>(lengths), count_);
+}
+
+bool SmoothingLengthCache::is_in_the_way() const {
+  return is_another_file(path_, mark);
+}
+
+void SmoothingLengthCache::write(const Column& lengths) const {
+  check_output_path(path_);  // which removes what was left
+  UnfinishedFile file(path_);
+  const std::array<std::uint64_t, 2> header = {key_, count_};
+  file.write(mark.data(), mark.size());
+  file.write(header.data(), sizeof header);
+  file.write(lengths.data(), count_ * sizeof(float));
+  const std::uint64_t sum =
+      checksum(reinterpret_cast<const std::byte*>(lengths.data()), count_ * sizeof(float));
+  file.write(&sum, sizeof sum);
+  file.finish();
+}
 
 Column search(int type, const Column& position, const std::optional<BoxSides>& periodic_box,
               const MissingSizes& how, Communicator* ranks) {
@@ -110,6 +212,42 @@ Column find_sizes_by_neighbors(const Snapshot& snapshot, int type, const Column&
   if (is_first(ranks))
     say(fmt::format("the smoothing lengths of type {} are {}", type, keep(found, cache)));
   return found;
+}
+
+namespace {
+
+// In the memory of each rank.
+Column held(const Column& column) {
+  std::vector<float> values(column.size());
+  for_stretches(values.size(), [&](std::size_t begin, std::size_t end) {
+    column.source()->make(begin, end, values.data() + begin);
+  });
+  return Column::owning(std::move(values));
+}
+
+}  // namespace
+
+Column find_spread_sizes(SpreadParticles& spread, int type, const Column& own_position,
+                         std::uint64_t first, const MissingSizes& how,
+                         const std::optional<BoxSides>& periodic_box) {
+  const std::size_t own_count = own_position.size() / 3;
+  const Column of_all = spread.spread(own_position, own_count, 3);
+  const std::size_t count = of_all.size() / 3;
+  if (count > most_spread_neighbors) {
+    throw DataError(fmt::format(
+        "found {} particles of type {} without smoothing lengths, expected at most {} for a search "
+        "of neighbours among particles that are spread over processes, which each of them holds; "
+        "set the field smoothing_length, or density and mass, or size.fixed",
+        count, type, most_spread_neighbors));
+  }
+  const Column position = held(of_all);
+  const Column lengths = find_smoothing_lengths(position, count, periodic_box, how.neighbors, {},
+                                                search_share(&spread.ranks()));
+  const auto begin = static_cast<std::size_t>(first);
+  std::vector<float> own(own_count);
+  for (std::size_t i = 0; i < own_count; ++i)
+    own[i] = lengths[begin + i];
+  return Column::owning(std::move(own));
 }
 
 }  // namespace splotchcl

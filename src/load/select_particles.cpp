@@ -9,12 +9,11 @@
 #include <utility>
 
 #include "formats/halo_catalog.h"
-#include "formats/numpy/numpy_integers.h"
+#include "formats/numpy/numpy_array.h"
 #include "load/passes.h"
 #include "scene/ceil_divide.h"
-#include "scene/streamed_column.h"
-#include "select/condition.h"
-#include "select/id_list.h"
+#include "scene/particle_columns.h"
+#include "select/selection.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"

@@ -5,14 +5,12 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "common/decimals.h"
 #include "common/utf8.h"
 #include "load/passes.h"
-#include "load/suggest_scene_camera.h"
+#include "load/suggest_camera.h"
+#include "scene/particle_columns.h"
 #include "scene/statistics.h"
-#include "scene/streamed_column.h"
 #include "snapshot/field_names.h"
-#include "snapshot/particle_types.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/snapshot.h"

@@ -7,18 +7,18 @@
 #include <limits>
 #include <utility>
 
-#include "common/nearest_name.h"
+#include "common/words.h"
 #include "load/derived_fields.h"
+#include "load/missing_sizes.h"
 #include "load/passes.h"
-#include "load/periodic_region.h"
-#include "load/spread_sizes.h"
+#include "load/periodic.h"
 #include "ranks/spread_particles.h"
+#include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
-#include "scene/streamed_column.h"
 #include "smoothing/smoothing_lengths.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
-#include "snapshot/unit_ratio.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -5,12 +5,11 @@
 #include <limits>
 #include <utility>
 
-#include "common/nearest_name.h"
+#include "common/words.h"
+#include "load/components.h"
 #include "load/missing_sizes.h"
-#include "load/open_components.h"
 #include "map/geometry.h"
 #include "map/map_units.h"
-#include "map/noise.h"
 #include "map/placed_particles.h"
 #include "map/quantity.h"
 #include "map/sky.h"

@@ -1,15 +1,23 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "map/contours.h"
 #include "map/map_colors.h"
 #include "splotchcl/image.h"
 #include "splotchcl/map.h"
 
 namespace splotchcl {
+
+// A piece of a contour: two places in pixels from the top left corner of the map.
+using ContourPiece = std::array<std::array<double, 2>, 2>;
+
+// Where the map, linear along the lines between centers of neighboring pixels, has the value: by
+// marching squares (Lorensen & Cline 1987 in two dimensions). A saddle is cut by the mean of its
+// corners. Squares with a corner that is not a number have none.
+std::vector<ContourPiece> contour_pieces(const Map& map, double level);
 
 // What figures of a map have in common.
 struct Figure {

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "finish/placeholders.h"
-#include "image/font_folders.h"
+#include "image/text.h"
 #include "map/figure.h"
 #include "splotchcl/error.h"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "load/periodic_wrap.h"
+#include "load/periodic.h"
 #include "scene/constants.h"
 #include "scene/particle_rules.h"
 #include "splotchcl/error.h"

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "load/periodic_region.h"
+#include "load/periodic.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 

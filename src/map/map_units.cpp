@@ -11,7 +11,7 @@
 #include "common/words.h"
 #include "load/derived_fields.h"
 #include "snapshot/field_names.h"
-#include "snapshot/unit_ratio.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -4,10 +4,9 @@
 
 #include "common/file_identity.h"
 #include "finish/finish_picture.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "scene_file/file_names.h"
 #include "snapshot/snapshot_files.h"
-#include "snapshot/snapshot_list.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"

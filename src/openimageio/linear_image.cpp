@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "openimageio/input.h"
 #include "openimageio/pictures.h"
 #include "splotchcl/error.h"
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/nearest_name.h"
-#include "common/text_file.h"
+#include "common/mapped_file.h"
+#include "common/words.h"
 #include "palette/palette_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"

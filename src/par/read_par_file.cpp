@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
-#include "common/text_file.h"
-#include "par/par_keys.h"
+#include "common/mapped_file.h"
+#include "par/par_file.h"
 #include "par/translate.h"
 #include "scene_file/file_names.h"
 #include "splotchcl/error.h"

@@ -3,12 +3,11 @@
 #include <cctype>
 #include <cmath>
 
+#include "common/mapped_file.h"
 #include "common/physical_constants.h"
-#include "common/text_file.h"
-#include "film/path/path_words.h"
+#include "film/path/path_table.h"
 #include "par/translate.h"
 #include "snapshot/snapshot_files.h"
-#include "snapshot/snapshot_list.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"

@@ -4,7 +4,6 @@
 #include <array>
 #include <thread>
 
-#include "parallel/shared_blocks.h"
 #include "parallel/thread_pool.h"
 
 namespace splotchcl {

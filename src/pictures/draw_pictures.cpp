@@ -2,11 +2,9 @@
 #include <optional>
 #include <utility>
 
-#include "finish/anaglyph.h"
-#include "finish/cross_fade.h"
-#include "finish/fade.h"
 #include "finish/finish_picture.h"
-#include "finish/tone_levels.h"
+#include "finish/joined_pictures.h"
+#include "finish/tone.h"
 #include "pictures/other_scenes.h"
 #include "splotchcl/load.h"
 #include "splotchcl/picture.h"

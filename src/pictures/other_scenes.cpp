@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "finish/cross_fade.h"
-#include "finish/tone_levels.h"
+#include "finish/joined_pictures.h"
+#include "finish/tone.h"
 #include "splotchcl/load.h"
 
 namespace splotchcl {

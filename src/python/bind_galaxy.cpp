@@ -6,7 +6,7 @@
 
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
-#include "python/drawing.h"
+#include "python/bindings.h"
 #include "python/progress.h"
 #include "splotchcl/error.h"
 #include "splotchcl/galaxy.h"

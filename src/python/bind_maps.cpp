@@ -3,7 +3,7 @@
 
 #include <mutex>
 
-#include "python/drawing.h"
+#include "python/bindings.h"
 #include "python/progress.h"
 #include "python/source.h"
 #include "splotchcl/map.h"

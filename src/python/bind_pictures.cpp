@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "image/png_file.h"
-#include "python/picture.h"
+#include "python/bindings.h"
 #include "python/progress.h"
 #include "splotchcl/compare.h"
 #include "splotchcl/palette_file.h"

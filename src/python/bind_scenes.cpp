@@ -4,8 +4,8 @@
 #include <mutex>
 
 #include "film/path/film_path.h"
+#include "python/bindings.h"
 #include "python/progress.h"
-#include "python/scene.h"
 #include "python/source.h"
 #include "scene_file/file_names.h"
 #include "scene_file/suggested.h"

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "python/drawing.h"
-#include "python/picture.h"
+#include "python/bindings.h"
 #include "python/progress.h"
-#include "python/scene.h"
 #include "python/source.h"
 #include "splotchcl/error.h"
 

@@ -32,4 +32,12 @@ std::string mpi_of_environment();
 // Throws DataError where the module for their MPI is missing.
 std::shared_ptr<Communicator> started_with_mpi();
 
+// Ranks on one host share out its cores: PoCL, which else takes all of them for each process, is
+// told how many threads to have, unless the user's environment tells it. Before the first OpenCL
+// call.
+void share_cores(const Communicator& ranks);
+
+// Of so many cores, of which this process may use `allowed`, each of `ranks` processes takes these.
+int cores_of_rank(int cores, int allowed, int ranks);
+
 }  // namespace splotchcl

@@ -1,7 +1,6 @@
 #include "ranks/rank_pass.h"
 
-#include "ranks/agreement.h"
-#include "ranks/values.h"
+#include "ranks/exchange.h"
 
 namespace splotchcl {
 

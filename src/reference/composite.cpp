@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "reference/profile.h"
@@ -5,6 +6,19 @@
 #include "splotchcl/reference.h"
 
 namespace splotchcl::reference {
+
+void sort(std::vector<Splat>& splats, const SortOrder& order) {
+  if (order.descending) {
+    std::stable_sort(splats.begin(), splats.end(), [](const Splat& a, const Splat& b) {
+      return a.key != b.key ? a.key > b.key : !a.is_around && b.is_around;
+    });
+  } else {
+    std::stable_sort(splats.begin(), splats.end(), [](const Splat& a, const Splat& b) {
+      return a.key != b.key ? a.key < b.key : !a.is_around && b.is_around;
+    });
+  }
+}
+
 namespace {
 
 // phi(y) = (1 - exp(-y)) / y. The series' next term, y^3 / 24, is below 1e-13 there.

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "scene/ceil_divide.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 
 namespace splotchcl {
 namespace {

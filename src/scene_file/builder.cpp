@@ -10,10 +10,8 @@
 #include "common/utf8.h"
 #include "scene/constants.h"
 #include "scene_file/give_way.h"
-#include "scene_file/key_depth.h"
 #include "scene_file/parse_toml.h"
-#include "scene_file/replace_excluded.h"
-#include "scene_file/unknown_key.h"
+#include "scene_file/setting.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"
 

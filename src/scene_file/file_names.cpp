@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "image/font_folders.h"
+#include "image/text.h"
 #include "palette/palette_file.h"
 #include "scene_file/keys.h"
 #include "scene_file/setting.h"

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "scene_file/key_builder.h"
-#include "select/condition.h"
+#include "select/selection.h"
 
 namespace splotchcl::scene_file {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scene_file/keys.h"
-#include "select/condition.h"
+#include "select/selection.h"
 
 namespace splotchcl::scene_file {
 namespace {

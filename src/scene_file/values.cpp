@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "common/utf8.h"
-#include "snapshot/particle_types.h"
+#include "snapshot/field_names.h"
 
 namespace splotchcl::scene_file {
 namespace {

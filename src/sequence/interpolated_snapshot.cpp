@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "between/interpolated_column.h"
+#include "between/interpolation.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 

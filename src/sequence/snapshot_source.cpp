@@ -4,11 +4,11 @@
 #include <future>
 #include <unordered_set>
 
-#include "formats/concurrent_reading.h"
+#include "formats/snapshot_format.h"
 #include "parallel/in_background.h"
 #include "sequence/interpolated_snapshot.h"
 #include "sequence/snapshot_pair.h"
-#include "snapshot/snapshot_list.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/sequence.h"

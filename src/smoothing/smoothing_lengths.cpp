@@ -10,8 +10,8 @@
 
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
+#include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
-#include "scene/streamed_column.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

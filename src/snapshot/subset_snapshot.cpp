@@ -8,7 +8,7 @@
 
 #include "scene/ceil_divide.h"
 #include "scene/hash.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 
 namespace splotchcl {
 namespace {

@@ -7,16 +7,26 @@
 #include <string>
 #include <vector>
 
+#include "splotchcl/light_model.h"
+#include "splotchcl/particles.h"
 #include "splotchcl/vector.h"
-#include "view/field_histogram.h"
 #include "view/frame_scheduler.h"
 #include "view/view_drawer.h"
-#include "view/view_files.h"
 #include "view/view_scene.h"
+
+namespace splotchcl::view {
+
+// How many particles have which values. Bins are equally wide after scaling.
+struct FieldHistogram {
+  double minimum = 0, maximum = 0;    // of the values, before scaling
+  std::vector<std::uint64_t> counts;  // empty: no value can be scaled
+};
+
+// Of at most 2 million values, evenly spaced in the column. `bins` > 0.
+FieldHistogram field_histogram(const Column& column, Scaling scaling, std::size_t bins);
 
 // What the program says to a page (docs/view.md, "What page and program say"): JSON, but for
 // frames.
-namespace splotchcl::view {
 
 // What a page is told beside a picture.
 struct FrameHeader {
@@ -31,10 +41,10 @@ struct FrameHeader {
 // picture's file.
 std::string frame_message(const FrameHeader& header, const ViewPicture& picture);
 
-// The state could not be drawn.
 // What a page is told of an error: words of a file, which messages quote, are left out.
 std::string text_for_page(const std::exception& error);
 
+// The state could not be drawn.
 std::string state_error(std::uint64_t state, const std::string& text);
 // A message could not be understood.
 std::string message_error(const std::string& text);

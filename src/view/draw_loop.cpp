@@ -5,13 +5,11 @@
 #include <filesystem>
 #include <utility>
 
-#include "finish/tone_levels.h"
+#include "finish/tone.h"
 #include "splotchcl/error.h"
 #include "view/answers.h"
-#include "view/field_histogram.h"
 #include "view/pick.h"
 #include "view/scene_description.h"
-#include "view/view_files.h"
 #include "view/view_scene.h"
 
 namespace splotchcl::view {

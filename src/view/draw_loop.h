@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "view/frame_scheduler.h"
-#include "view/preview_quality.h"
 #include "view/requests/page_messages.h"
 #include "view/view_drawer.h"
 

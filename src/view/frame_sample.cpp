@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "scene/hash.h"
-#include "scene/picked_particles.h"
-#include "scene/same_columns.h"
+#include "scene/particle_columns.h"
 
 namespace splotchcl::view {
 namespace {

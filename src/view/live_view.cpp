@@ -6,7 +6,7 @@
 
 #include "view/draw_loop.h"
 #include "view/page_server.h"
-#include "view/requests/access.h"
+#include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 

@@ -16,7 +16,7 @@
 
 #include "splotchcl/error.h"
 #include "view/answers.h"
-#include "view/requests/page_files.h"
+#include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 namespace {

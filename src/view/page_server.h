@@ -5,7 +5,7 @@
 #include <string>
 
 #include "view/draw_loop.h"
-#include "view/requests/access.h"
+#include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "load/derived_fields.h"
-#include "snapshot/snapshot_list.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/palette_file.h"
 

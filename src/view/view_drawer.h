@@ -10,7 +10,7 @@
 #include "splotchcl/open_scene.h"
 #include "splotchcl/snapshot_source.h"
 #include "view/frame_sample.h"
-#include "view/preview_quality.h"
+#include "view/frame_scheduler.h"
 
 namespace splotchcl::view {
 

@@ -12,8 +12,15 @@
 namespace splotchcl::adversary {
 namespace {
 
+// Whether a disc's centre is so close to one of this pixel's edges that it may lie in either pixel,
+// of which the one that holds it shows it however small it is.
+bool may_hold_center(double place, int pixel, double known_to) {
+  return std::min(std::abs(place - pixel), std::abs(place - pixel - 1)) <= known_to;
+}
+
 // Pixels whose centre is so close to the edge of a cut disc that single precision may put it on
-// either side, which docs/accuracy.md takes out of the promise.
+// either side, or whose edge is so close to a disc's centre, which docs/accuracy.md takes out of
+// the promise.
 std::vector<bool> pixels_on_cut_edges(const Frame& frame) {
   const Rectangle& crop = frame.crop;
   std::vector<bool> on_edge(static_cast<std::size_t>(crop.width) *
@@ -26,7 +33,11 @@ std::vector<bool> pixels_on_cut_edges(const Frame& frame) {
       for (int x = 0; x < crop.width; ++x) {
         const double distance =
             std::hypot((crop.x + x + 0.5 - splat.x) / splat.stretch, crop.y + y + 0.5 - splat.y);
-        if (std::abs(distance - edge) > known_to) continue;
+        const bool is_beside =
+            std::hypot(crop.x + x + 0.5 - splat.x, crop.y + y + 0.5 - splat.y) < 1 &&
+            (may_hold_center(splat.x, crop.x + x, known_to) ||
+             may_hold_center(splat.y, crop.y + y, known_to));
+        if (std::abs(distance - edge) > known_to && !is_beside) continue;
         on_edge[static_cast<std::size_t>(y * crop.width + x)] = true;
       }
     }

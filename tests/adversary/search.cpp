@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -83,11 +84,14 @@ class Climb {
 
   // The best of a few starts.
   void begin(const std::function<Trial(Random&)>& start, const std::function<bool()>& goes_on) {
-    constexpr int starts = 6;
+    constexpr int starts = 6, most_starts = 100;
     step_ = first_step;
     failures_ = 0;
-    for (int i = 0; i < starts && (i == 0 || goes_on()); ++i)
-      try_(start(random_), i == 0);
+    // The first that does not cost too much counts anyway.
+    bool has_begun = false;
+    for (int i = 0; i < most_starts && (!has_begun || (i < starts && goes_on())); ++i)
+      has_begun |= try_(start(random_), !has_begun);
+    if (!has_begun) throw std::runtime_error("all starts of a class cost too much to be drawn");
   }
 
   void step() {

@@ -1,18 +1,28 @@
-// That breaches are found, in made-up projects.
 #include "architecture/rules.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
+#include "matches.h"
+#include "paths.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::test {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::Not;
+
+// That breaches are found, in made-up projects.
 
 // A roof on walls on the ground.
 class Rules : public ::testing::Test {
@@ -131,6 +141,103 @@ TEST(TargetTable, RefusesOtherText) {
   std::istringstream headless("links ground\n"), unknown("target roof\nknows ground\n");
   EXPECT_THROW(TargetTable::read(headless), std::runtime_error);
   EXPECT_THROW(TargetTable::read(unknown), std::runtime_error);
+}
+
+// The project's own files and targets.
+
+const TargetTable& table() {
+  static const TargetTable read = [] {
+    std::ifstream file(SPLOTCHCL_TARGET_TABLE);
+    return TargetTable::read(file);
+  }();
+  return read;
+}
+
+// A link of this target, or of one that it links, however far.
+std::set<std::string> all_below(const std::string& name) {
+  std::set<std::string> below;
+  std::vector<std::string> open = {name};
+  while (!open.empty()) {
+    const Target* const target = table().find(open.back());
+    open.pop_back();
+    if (target == nullptr) continue;
+    for (const std::vector<std::string>* const links : {&target->links, &target->exports}) {
+      for (const std::string& link : *links) {
+        if (below.insert(link).second) open.push_back(link);
+      }
+    }
+  }
+  return below;
+}
+
+TEST(Project, TableHasItsTargets) {
+  for (const char* const name : {"splotchcl", "splotchcl_device", "splotchcl_scene"})
+    EXPECT_NE(table().find(name), nullptr) << name;
+}
+
+TEST(Project, IncludesOnlyWhatItLinks) {
+  EXPECT_THAT(find_wrong_includes(table(), test::source_folder()), IsEmpty());
+}
+
+TEST(Project, LinksOnlyWhatItIncludes) {
+  EXPECT_THAT(find_idle_links(table(), test::source_folder()), IsEmpty());
+}
+
+TEST(Project, EachPublicHeaderBelongsToOneTarget) {
+  EXPECT_THAT(find_stray_headers(table(), test::source_folder()), IsEmpty());
+}
+
+TEST(Project, EachFileBelongsToATarget) {
+  EXPECT_THAT(find_stray_files(table(), test::source_folder()), IsEmpty());
+}
+
+TEST(Project, HasNoCycles) {
+  EXPECT_THAT(find_cycles(table()), IsEmpty());
+}
+
+TEST(Project, SceneIsBelowAll) {
+  EXPECT_THAT(all_below("splotchcl_scene"), IsEmpty());
+}
+
+TEST(Project, DeviceAndReferenceDoNotKnowEachOther) {
+  EXPECT_THAT(all_below("splotchcl_device"), Not(Contains("splotchcl_reference")));
+  EXPECT_THAT(all_below("splotchcl_reference"), Not(Contains("splotchcl_device")));
+}
+
+// How branched the kernels are, as scripts/measure_shape counts it. Lower the numbers when they
+// fall; what raises them has to be worth it.
+
+// What each #if, #ifdef, #ifndef and #elif of the kernels asks for.
+std::vector<std::string> conditions_of_kernels() {
+  std::vector<std::string> conditions;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(source_folder() / "kernels")) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      for (const Match& match : matches_of(line, R"(^\s*#\s*(?:if|ifdef|ifndef|elif)\b(.*))"))
+        conditions.push_back(match[1]);
+    }
+  }
+  return conditions;
+}
+
+std::set<std::string> macros_of(const std::vector<std::string>& conditions) {
+  std::set<std::string> macros;
+  for (const std::string& condition : conditions) {
+    for (const Match& match : matches_of(condition, R"(\b([A-Z_]\w+)\b)")) {
+      const std::string name = match[1];
+      if (name.rfind("__", 0) != 0 && name.rfind("SPLOTCHCL_", 0) != 0) macros.insert(name);
+    }
+  }
+  return macros;
+}
+
+TEST(Shape, KernelsAreNoMoreBranchedThanTheyWere) {
+  const std::vector<std::string> conditions = conditions_of_kernels();
+  EXPECT_GT(conditions.size(), 100u);  // they were found
+  EXPECT_LE(conditions.size(), 226u);
+  EXPECT_LE(macros_of(conditions).size(), 32u);
 }
 
 }  // namespace

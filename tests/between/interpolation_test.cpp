@@ -8,8 +8,6 @@
 #include <limits>
 #include <random>
 
-#include "between/interpolated_column.h"
-
 namespace splotchcl {
 namespace {
 

@@ -302,6 +302,72 @@ TEST_F(CertificateTest, CountsLayersBeforeAStarAsPartsOfItsLight) {
   EXPECT_FALSE(certify(as_deep(70), image, frame_, plan_).keeps_promise());
 }
 
+Image colored_picture(float red, float green, float blue) {
+  Image image = dark_picture();
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+    image.pixels[i] = red;
+    image.pixels[i + 1] = green;
+    image.pixels[i + 2] = blue;
+  }
+  return image;
+}
+
+// A palette in which a place that is off by a rounding makes red light blue.
+class ColorsTest : public CertificateTest {
+ protected:
+  ColorsTest() {
+    DrawnComponent& star = frame_.components.front();
+    star.palette.emission = {Rgb{1, 0, 0}, Rgb{0, 0, 1}};
+    star.particles.color = Column::uniform(3000);
+    star.color = {Scaling::log, 1, 8};
+    plan_ = make_plan(frame_);
+  }
+};
+
+TEST_F(ColorsTest, CountByTheBrightestChannelBesideADarkOne) {
+  const auto error_of = [&](const Image& image) {
+    return certify({}, image, frame_, plan_).error_of_promise;
+  };
+  const double dim = error_of(colored_picture(1, 0, 0));
+  EXPECT_GT(error_of(colored_picture(1e5f, 0, 0)), 1);
+  EXPECT_GT(error_of(colored_picture(1e3f, 0, 0)), 5 * dim);
+  EXPECT_NEAR(error_of(colored_picture(1e5f, 1e5f, 1e5f)), dim, 1e-6) << "nothing is dark";
+}
+
+TEST_F(ColorsTest, HideNothingOfWhatEndsInADarkPicture) {
+  PeakCells cells = empty_cells();
+  at(cells.endings, 10, 10) = static_cast<float>(1.5 * frame_.tolerance / ending());
+  const Certificate certificate = certify_cells(cells);
+  EXPECT_FALSE(certificate.keeps_promise());
+  for (const float error : certificate.blocks.errors)
+    EXPECT_TRUE(std::isfinite(error));
+}
+
+TEST_F(ColorsTest, AskForExtendedPrecision) {
+  EXPECT_TRUE(certify({}, colored_picture(1e5f, 0, 0), frame_, plan_).needs_extended);
+  EXPECT_FALSE(certify({}, colored_picture(1, 0, 0), frame_, plan_).needs_extended);
+}
+
+TEST_F(ColorsTest, OfExtendedPrecisionAreBoundedAsWell) {
+  const FramePlan extended = extend_plan(frame_, plan_);
+  frame_.tolerance = 0;
+  const auto error_of = [&](float red) {
+    return certify_extended({}, colored_picture(red, 0, 0), frame_, extended).error_of_promise;
+  };
+  EXPECT_EQ(error_of(1), 1);
+  EXPECT_GT(error_of(1e6f), 100);
+}
+
+// An opaque channel's light is its source's, however deep it is.
+TEST_F(ColorsTest, CountByHowDeepAnOpaqueChannelIs) {
+  frame_.components.front().absorption = {Absorption::Kind::as_emission, 0};
+  plan_ = make_plan(frame_);
+  ASSERT_EQ(plan_.light, LightPlan::proportional);
+  const Image image = colored_picture(1, 0.5f, 0);
+  EXPECT_TRUE(certify(as_deep(20), image, frame_, plan_).keeps_promise());
+  EXPECT_FALSE(certify(as_deep(1e5), image, frame_, plan_).keeps_promise());
+}
+
 TEST_F(CertificateTest, FindsNothingLeftOutOfACutKernel) {
   frame_.kernel.cut = 2.0;
   plan_ = make_plan(frame_);

@@ -2,119 +2,98 @@
 // compositing, within the tolerance that the frame promises.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <tuple>
 
 #include "device/cases.h"
-#include "device/scenes.h"
-#include "splotchcl/plan.h"
+#include "device/pictures.h"
 
 namespace splotchcl::test {
 namespace {
 
-void set_light(DrawnComponent& component, LightPlan light) {
-  if (light == LightPlan::emission) component.absorption.kind = Absorption::Kind::none;
-  if (light == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
+struct Clouds {
+  const char* name;
+  CloudSetup setup;
+  std::function<void(Frame&)> change = [](Frame&) {};
+};
+
+CloudSetup clouds(int count, double sigma_low, double sigma_high, double column_low,
+                  double column_high) {
+  return {count, 100, 70, sigma_low, sigma_high, column_low, column_high};
 }
 
-class Agreement : public testing::TestWithParam<PlanAndShape> {
+Clouds of_size(const char* name, int width, int height) {
+  return {name, {500, width, height, 0.05, 30, 0.1}};
+}
+
+Clouds with_tolerance(const char* name, double tolerance) {
+  return {name, clouds(2000, 0.5, 30, 1e-3, 1e-1),
+          [tolerance](Frame& frame) { frame.tolerance = tolerance; }};
+}
+
+const Clouds kinds_of_clouds[] = {{"of_all_sizes", {}},
+                                  {"of_grains_below_a_pixel", clouds(3000, 0.01, 1, 0.01, 1)},
+                                  {"that_are_wide_and_thin", clouds(3000, 5, 80, 1e-4, 1e-2)},
+                                  {"that_are_opaque", clouds(300, 0.05, 30, 1, 100)},
+                                  {"on_a_background",
+                                   {},
+                                   [](Frame& frame) {
+                                     frame.background = {0.2, 0.5, 0.9};
+                                   }},
+                                  {"sampled_at_centers", clouds(500, 0.5, 30, 0.01, 1),
+                                   [](Frame& frame) { frame.kernel.sampling = Sampling::center; }},
+                                  with_tolerance("at_1e_2", 1e-2),
+                                  with_tolerance("at_1e_4", 1e-4),
+                                  with_tolerance("at_1e_5", 1e-5),
+                                  of_size("in_a_pixel", 1, 1),
+                                  of_size("in_a_column", 1, 131),
+                                  of_size("in_a_row", 97, 1),
+                                  of_size("in_33_by_17", 33, 17),
+                                  of_size("in_32_by_16", 32, 16)};
+
+class Agreement : public PictureTest,
+                  public testing::WithParamInterface<std::tuple<Clouds, PlanAndShape>> {
  protected:
-  LightPlan light() const { return std::get<0>(GetParam()); }
-  Image draw(const Frame& frame) const {
-    RendererOptions options;
-    options.shape = std::get<1>(GetParam());
-    Renderer renderer(options);
-    return renderer.render(frame);
-  }
-  Frame frame_for(CloudSetup setup) const {
-    DrawnComponent component = random_clouds(setup);
-    set_light(component, light());
-    Frame frame = frame_of(setup.width, setup.height, {component});
-    EXPECT_EQ(choose_light(frame), light());
+  const Clouds& clouds_ = std::get<0>(GetParam());
+  const LightPlan light_ = std::get<0>(std::get<1>(GetParam()));
+  const CompositeShape shape_ = std::get<1>(std::get<1>(GetParam()));
+
+  Frame frame() const {
+    Frame frame = clouds_for(light_, clouds_.setup);
+    clouds_.change(frame);
+    EXPECT_EQ(choose_light(frame), light_);
     return frame;
-  }
-  void expect_within_tolerance(const Frame& frame) const {
-    const ReferenceImage exact = reference::render(frame);
-    EXPECT_GT(largest_value(exact), 0.05) << "the scene must have something to see";
-    const double error = largest_error(draw(frame), exact);
-    RecordProperty("error", std::to_string(error));
-    EXPECT_LE(error, frame.tolerance);
   }
 };
 
-TEST_P(Agreement, HoldsForCloudsOfAllSizes) {
-  expect_within_tolerance(frame_for({}));
+TEST_P(Agreement, HoldsForClouds) {
+  const ReferenceImage exact = reference::render(frame());
+  EXPECT_GT(largest_value(exact), 0.05) << "the scene must have something to see";
+  EXPECT_LE(largest_error(draw(frame(), shape_), exact), frame().tolerance);
 }
 
-TEST_P(Agreement, HoldsForGrainsBelowAPixel) {
-  CloudSetup setup;
-  setup.count = 3000;
-  setup.sigma_low = 0.01;
-  setup.sigma_high = 1;
-  expect_within_tolerance(frame_for(setup));
+std::string name_of_clouds(const testing::TestParamInfo<Agreement::ParamType>& info) {
+  return std::get<0>(info.param).name + ("_" + name_of_case({std::get<1>(info.param), 0}));
 }
 
-TEST_P(Agreement, HoldsForWideThinClouds) {
-  CloudSetup setup;
-  setup.count = 3000;
-  setup.sigma_low = 5;
-  setup.sigma_high = 80;
-  setup.column_low = 1e-4;
-  setup.column_high = 1e-2;
-  expect_within_tolerance(frame_for(setup));
-}
+INSTANTIATE_TEST_SUITE_P(Plans, Agreement,
+                         testing::Combine(testing::ValuesIn(kinds_of_clouds),
+                                          testing::Combine(testing::ValuesIn(all_plans),
+                                                           both_shapes())),
+                         name_of_clouds);
 
-TEST_P(Agreement, HoldsForOpaqueClouds) {
-  CloudSetup setup;
-  setup.count = 300;
-  setup.column_low = 1;
-  setup.column_high = 100;
-  expect_within_tolerance(frame_for(setup));
-}
+using PlansAgree = PictureTest;
 
-TEST_P(Agreement, HoldsOnABackground) {
-  Frame frame = frame_for({});
-  frame.background = {0.2, 0.5, 0.9};
-  expect_within_tolerance(frame);
-}
-
-TEST_P(Agreement, HoldsForCenterSamplesOfAnUncutKernel) {
-  CloudSetup setup;
-  setup.sigma_low = 0.5;
-  Frame frame = frame_for(setup);
-  frame.kernel.sampling = Sampling::center;
-  expect_within_tolerance(frame);
-}
-
-TEST_P(Agreement, HoldsForLooseAndTightTolerances) {
-  for (const double tolerance : {1e-2, 1e-4, 1e-5}) {
-    CloudSetup setup;
-    setup.count = 2000;
-    setup.sigma_low = 0.5;
-    setup.column_low = 1e-3;
-    setup.column_high = 1e-1;
-    Frame frame = frame_for(setup);
-    frame.tolerance = tolerance;
-    expect_within_tolerance(frame);
+TEST_F(PlansAgree, SameFrameGivesTheSameBitsWhoeverDrawsIt) {
+  for (const CompositeShape shape : {CompositeShape::rows, CompositeShape::groups}) {
+    for (const LightPlan plan : all_plans) {
+      const Frame frame = clouds_for(plan);
+      Renderer another({"", shape});
+      EXPECT_EQ(draw(frame, shape).pixels, another.render(frame).pixels);
+    }
   }
 }
-
-TEST_P(Agreement, HoldsForPicturesOfAwkwardSizes) {
-  for (const auto& [width, height] : {std::pair{1, 1}, {1, 131}, {97, 1}, {33, 17}, {32, 16}}) {
-    CloudSetup setup;
-    setup.width = width;
-    setup.height = height;
-    setup.column_low = 0.1;
-    expect_within_tolerance(frame_for(setup));
-  }
-}
-
-TEST_P(Agreement, SameFrameGivesTheSameBits) {
-  const Frame frame = frame_for({});
-  EXPECT_EQ(draw(frame).pixels, draw(frame).pixels);
-}
-
-INSTANTIATE_TEST_SUITE_P(Plans, Agreement, each_plan_and_shape(), name_of_case);
 
 }  // namespace
 }  // namespace splotchcl::test

@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "device/scenes.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
 
@@ -13,6 +14,19 @@ namespace splotchcl::test {
 // What tests of several plans and shapes are repeated for.
 inline constexpr LightPlan all_plans[] = {LightPlan::emission, LightPlan::proportional,
                                           LightPlan::ordered};
+
+// Of components whose frame needs this plan.
+inline Absorption absorption_for(LightPlan plan) {
+  if (plan == LightPlan::emission) return {Absorption::Kind::none, 0};
+  if (plan == LightPlan::ordered) return {Absorption::Kind::gray, 0.2};
+  return {};
+}
+
+inline Frame clouds_for(LightPlan plan, const CloudSetup& setup = {}) {
+  DrawnComponent component = random_clouds(setup);
+  component.absorption = absorption_for(plan);
+  return frame_of(setup.width, setup.height, {component});
+}
 
 using PlanAndShape = std::tuple<LightPlan, CompositeShape>;
 

@@ -17,13 +17,6 @@
 namespace splotchcl::test {
 namespace {
 
-Frame clouds_for(LightPlan plan, const CloudSetup& setup = {}) {
-  DrawnComponent component = random_clouds(setup);
-  if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
-  if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
-  return frame_of(setup.width, setup.height, {component});
-}
-
 Column picked(const Column& column, const std::vector<std::size_t>& particles, std::size_t stride) {
   std::vector<float> values;
   for (const std::size_t i : particles) {

@@ -26,10 +26,8 @@ class CropBits : public PictureTest, public testing::WithParamInterface<Composit
     const DrawnComponent crowd =
         component_of(std::vector<Cloud>(40, Cloud{20.3, -7.1, 50, 4.6, 10}), two_colors());
     Frame frame = frame_of(setup.width, setup.height, {clouds, crowd});
-    for (DrawnComponent& component : frame.components) {
-      if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
-      if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
-    }
+    for (DrawnComponent& component : frame.components)
+      component.absorption = absorption_for(plan);
     return frame;
   }
 };

@@ -1,13 +1,18 @@
-// How often frames are drawn until they keep their promise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "device/pictures.h"
+#include "device/stages.h"
 #include "splotchcl/reference.h"
 
 namespace splotchcl::test {
 namespace {
+
+// How often frames are drawn until they keep their promise.
 
 class Drawings : public PictureTest {
  protected:
@@ -132,6 +137,143 @@ TEST_F(Drawings, AfterTheFirstAreOfThePartsThatBrokeThePromise) {
     EXPECT_GT(around_the_crowd, 0);
     EXPECT_LE(largest_difference(image, reference::render(frame).to_float()), frame.tolerance);
   }
+}
+
+// What the check after drawing is made from: all splats that were drawn, each once.
+
+double sum_of(const std::vector<float>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+class CertifierTest : public StageTest, public testing::WithParamInterface<LightPlan> {
+ protected:
+  // Columns of all clouds are alike, and so are their peaks from sigma 1 on.
+  static Frame clouds(double sigma_low, double sigma_high) {
+    CloudSetup setup;
+    setup.count = 500;
+    setup.width = 150;
+    setup.height = 110;
+    setup.sigma_low = sigma_low;
+    setup.sigma_high = sigma_high;
+    setup.column_low = setup.column_high = 0.01;
+    DrawnComponent component = random_clouds(setup);
+    component.palette = one_color(1, 1, 1);
+    if (GetParam() == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
+    if (GetParam() == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 1e6};
+    return frame_of(setup.width, setup.height, {component});
+  }
+
+  // What counts of a cloud's column of 0.01: absorption as so much of emission, of which gray
+  // absorption leaves nothing.
+  static double counted_peak(const Frame& frame) { return 0.01 * make_plan(frame).light_behind; }
+
+  std::vector<PeakCells> collected(const Frame& frame, std::uint64_t& drawn) {
+    ParticleStore particles(device());
+    const FramePlan plan = make_plan(frame);
+    Pipeline pipeline(device(), particles, frame, plan);
+    pipeline.draw();
+    drawn = pipeline.counts().visible;
+    return pipeline.collected().cells;
+  }
+};
+
+TEST_P(CertifierTest, CollectsThePeakOfEachSplatOnce) {
+  std::uint64_t drawn = 0;
+  double peaks = 0;
+  const Frame frame = clouds(4, 12);
+  for (const PeakCells& cells : collected(frame, drawn))
+    peaks += sum_of(cells.peaks.values);
+  // Center values are widened by 1 / 6 in the square of sigma. What blurred grids make brighter is
+  // taken back as for the widest splats of an octave: up to as much again is left.
+  ASSERT_GT(drawn, 300);
+  const double expected = counted_peak(frame) * static_cast<double>(drawn);
+  EXPECT_GE(peaks, 0.98 * expected);
+  EXPECT_LE(peaks, 2 * expected);
+}
+
+TEST_P(CertifierTest, TellsOctavesOfWidthsApart) {
+  std::uint64_t drawn = 0;
+  for (const PeakCells& cells : collected(clouds(4.1, 7.9), drawn))
+    EXPECT_EQ(cells.octave, 3);
+}
+
+TEST_P(CertifierTest, CountsNoMoreOfAnEndThanWhereABrightSplatEnds) {
+  Frame frame = clouds(1.1, 1.8);
+  frame.components[0].brightness = 1e4;
+  std::uint64_t drawn = 0;
+  const FramePlan plan = make_plan(frame);
+  const float least = plan.splats.least_extent;
+  const double edge =
+      std::exp(static_cast<double>(least * least)) / static_cast<double>(plan.splats.inverse_edge);
+  // They may count among wider splats that end as far, in the measure of these.
+  double farther = plan.needs.widths[1].farther;
+  for (std::size_t octave = 1; octave < plan.needs.widths.size(); ++octave)
+    farther = std::max(farther, plan.needs.widths[octave].farther);
+  const double measure = std::exp(farther - plan.needs.widths[1].farther);
+  for (const PeakCells& cells : collected(frame, drawn)) {
+    EXPECT_LE(sum_of(cells.endings.values), 1.0001 * measure * edge * static_cast<double>(drawn));
+    EXPECT_GT(sum_of(cells.endings.values), 0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Plans, CertifierTest,
+                         testing::Values(LightPlan::emission, LightPlan::proportional,
+                                         LightPlan::ordered),
+                         [](const auto& info) { return std::string(name(info.param)); });
+
+TEST(FrameCheckTest, DrawsFaintCloudsOnce) {
+  CloudSetup setup;
+  setup.column_low = 0.001;
+  setup.column_high = 0.02;
+  Renderer renderer;
+  renderer.render(frame_of(setup.width, setup.height, {random_clouds(setup)}));
+  EXPECT_EQ(renderer.stats().check.errors_of_promise.size(), 1U);
+  EXPECT_LE(renderer.stats().check.errors_of_promise.back(), 1);
+}
+
+Frame splats_in_one_place() {
+  return frame_of(
+      100, 70,
+      {component_of(std::vector<Cloud>(20000, Cloud{0.3, 0.2, 1, 3, 0.5}), one_color(1, 1, 1))});
+}
+
+TEST(FrameCheckTest, DrawsAgainWhatManySplatsInOnePlaceLeaveOut) {
+  const Frame frame = splats_in_one_place();
+  Renderer renderer;
+  const Image image = renderer.render(frame, make_plan(frame));
+  EXPECT_GE(renderer.stats().check.errors_of_promise.size(), 2U);
+  EXPECT_GT(renderer.stats().check.errors_of_promise.front(), 1);
+  EXPECT_LE(renderer.stats().check.errors_of_promise.back(), 1);
+  EXPECT_LE(largest_difference(image, reference::render(frame).to_float()), frame.tolerance);
+}
+
+TEST(FrameCheckTest, DrawsAtOnceWhatASampleExpectsOfManySplatsInOnePlace) {
+  const Frame frame = splats_in_one_place();
+  Renderer renderer;
+  const Image image = renderer.render(frame);
+  EXPECT_EQ(renderer.stats().check.errors_of_promise.size(), 1U);
+  EXPECT_LE(largest_difference(image, reference::render(frame).to_float()), frame.tolerance);
+}
+
+TEST(FrameCheckTest, PromisesAtToleranceZeroWhatItsNumbersHold) {
+  Frame frame = frame_of(100, 70, {random_clouds({})});
+  frame.tolerance = 0;
+  Renderer renderer;
+  renderer.render(frame);
+  EXPECT_EQ(renderer.stats().check.errors_of_promise, std::vector<double>{1});
+  for (const float error : renderer.stats().check.blocks.errors)
+    EXPECT_GE(error, extended_tolerance * 0.999999);
+}
+
+TEST(FrameCheckTest, IsABoundWhereThatIsAskedFor) {
+  RendererOptions options;
+  options.certify = true;
+  Renderer renderer(options);
+  const Frame frame = frame_of(100, 70, {random_clouds({})});
+  const Image image = renderer.render(frame);
+  EXPECT_TRUE(renderer.stats().check.is_bound);
+  EXPECT_LE(renderer.stats().check.errors_of_promise.back(), 1);
+  EXPECT_LE(largest_difference(image, reference::render(frame).to_float()), frame.tolerance);
 }
 
 }  // namespace

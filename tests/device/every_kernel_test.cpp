@@ -17,15 +17,7 @@ class EveryKernel : public PictureTest, public testing::WithParamInterface<Compo
  protected:
   // Clouds from far below a pixel to wider than the picture, so that sums use coarse grids.
   static Frame small_frame(LightPlan plan, int count = 12) {
-    CloudSetup setup;
-    setup.count = count;
-    setup.width = 35;
-    setup.height = 14;
-    setup.column_low = 0.1;
-    DrawnComponent clouds = random_clouds(setup);
-    if (plan == LightPlan::emission) clouds.absorption = {Absorption::Kind::none, 0};
-    if (plan == LightPlan::ordered) clouds.absorption = {Absorption::Kind::gray, 0.2};
-    return frame_of(setup.width, setup.height, {clouds});
+    return clouds_for(plan, {count, 35, 14, 0.05, 30, 0.1});
   }
 
   // The camera among the clouds looks in all directions.

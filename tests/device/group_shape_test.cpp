@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "device/cases.h"
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "device/stages/group_binner.h"
@@ -18,14 +19,7 @@ class GroupShape : public StageTest {
  protected:
   // Clouds from far below a pixel to wider than many tiles.
   static Frame clouds(LightPlan plan, double tolerance, int count = 3000) {
-    CloudSetup setup;
-    setup.count = count;
-    setup.width = 230;
-    setup.height = 170;
-    DrawnComponent component = random_clouds(setup);
-    if (plan == LightPlan::emission) component.absorption = {Absorption::Kind::none, 0};
-    if (plan == LightPlan::ordered) component.absorption = {Absorption::Kind::gray, 0.2};
-    Frame frame = frame_of(setup.width, setup.height, {component});
+    Frame frame = clouds_for(plan, {count, 230, 170});
     frame.tolerance = tolerance;
     return frame;
   }

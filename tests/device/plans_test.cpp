@@ -4,20 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "device/cases.h"
 #include "device/pictures.h"
 
 namespace splotchcl::test {
 namespace {
 
-CloudSetup setup_of_columns(double low, double high) {
-  CloudSetup setup;
-  setup.column_low = low;
-  setup.column_high = high;
-  return setup;
-}
-
 Frame clouds(const Absorption& absorption, double column = 1) {
-  const CloudSetup setup = setup_of_columns(0.01 * column, column);
+  const CloudSetup setup = {500, 100, 70, 0.05, 30, 0.01 * column, column};
   DrawnComponent component = random_clouds(setup);
   component.absorption = absorption;
   return frame_of(setup.width, setup.height, {component});
@@ -95,10 +89,8 @@ TEST_F(Plans, OrderEmittersWithoutEffect) {
 }
 
 TEST_F(Plans, GiveTheSamePictureInBothShapes) {
-  for (const Absorption& absorption :
-       {Absorption{Absorption::Kind::none, 0}, Absorption{Absorption::Kind::as_emission, 0},
-        Absorption{Absorption::Kind::gray, 0.2}}) {
-    const Frame frame = clouds(absorption);
+  for (const LightPlan plan : all_plans) {
+    const Frame frame = clouds(absorption_for(plan));
     EXPECT_LE(
         largest_difference(draw(frame, CompositeShape::rows), draw(frame, CompositeShape::groups)),
         2 * frame.tolerance);
@@ -106,10 +98,8 @@ TEST_F(Plans, GiveTheSamePictureInBothShapes) {
 }
 
 TEST_F(Plans, KeepEveryTolerance) {
-  for (const Absorption& absorption :
-       {Absorption{Absorption::Kind::none, 0}, Absorption{Absorption::Kind::as_emission, 0},
-        Absorption{Absorption::Kind::gray, 0.2}}) {
-    Frame frame = clouds(absorption, 5);
+  for (const LightPlan plan : all_plans) {
+    Frame frame = clouds(absorption_for(plan), 5);
     const ReferenceImage exact = reference::render(frame);
     for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-5}) {
       frame.tolerance = tolerance;
@@ -122,11 +112,9 @@ TEST_F(Plans, KeepEveryTolerance) {
 TEST_F(Plans, KeepEveryToleranceForACloudOfAnyWidth) {
   for (const double sigma : {0.5, 1.2, 1.9, 2.8, 3.7, 4.6, 6.0, 9.0}) {
     const DrawnComponent cloud = component_of({{0.3, -1.7, 1, sigma, 4}}, two_colors());
-    for (const Absorption& absorption :
-         {Absorption{Absorption::Kind::none, 0}, Absorption{Absorption::Kind::as_emission, 0},
-          Absorption{Absorption::Kind::gray, 0.2}}) {
+    for (const LightPlan plan : all_plans) {
       Frame frame = frame_of(80, 60, {cloud});
-      frame.components.front().absorption = absorption;
+      frame.components.front().absorption = absorption_for(plan);
       const ReferenceImage exact = reference::render(frame);
       for (const double tolerance : {1e-2, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5}) {
         frame.tolerance = tolerance;

@@ -70,7 +70,7 @@ std::set<std::string> words_of(const std::string& text) {
 }
 
 std::set<std::string> written_macros() {
-  return names_in(text_of(variant_file), R"re(define(?:_if)?\([^"]*"([A-Z0-9_]+))re");
+  return names_in(text_of(variant_file), R"re(["{]"?([A-Z][A-Z0-9_]+)[" ])re");
 }
 
 // What a stage chooses for a program of its own.
@@ -98,7 +98,8 @@ TEST(Defines, ThatKernelsAskForAreWrittenOrTheirOwn) {
   const std::set<std::string> own = names_in(kernels, R"(#define (\w+))");
   const std::set<std::string> of_options = macros_of_options();
   EXPECT_GE(of_options.size(), 2u);
-  for (const std::string& asked : names_in(kernels, R"((?:#ifdef |#ifndef |defined\()(\w+))")) {
+  for (const std::string& asked : names_in(
+           kernels, R"((?:#ifdef |#ifndef |#if !?|#elif !?|&& !?|\|\| !?|defined\()([A-Z]\w+))")) {
     const bool of_the_language = asked.rfind("__", 0) == 0 || asked.rfind("cl_khr_", 0) == 0;
     EXPECT_TRUE(of_the_language || written.count(asked) || chosen.count(asked) ||
                 own.count(asked) || of_options.count(asked))

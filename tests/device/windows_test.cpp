@@ -10,8 +10,8 @@
 #include "device/counted_column.h"
 #include "device/frame/splat_capacity.h"
 #include "device/pictures.h"
-#include "device/scene_maker.h"
 #include "device/stages.h"
+#include "frames/random_frames.h"
 #include "long_tests.h"
 
 namespace splotchcl::test {

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "device/scene_maker.h"
-#include "projections/wide_scene_maker.h"
+#include "frames/random_frames.h"
 #include "splotchcl/load.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"

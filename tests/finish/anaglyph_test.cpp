@@ -1,11 +1,10 @@
 // Both eyes' pictures in one, for glasses of red and cyan.
-#include "finish/anaglyph.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "finish/finish_pictures.h"
+#include "finish/joined_pictures.h"
 
 namespace splotchcl::test {
 namespace {

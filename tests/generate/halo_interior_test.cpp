@@ -1,12 +1,11 @@
 // Shapes of haloes and what lies within them.
-#include "generate/halo_interior.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "generate/halo_profile.h"
 #include "generate/web.h"
 #include "splotchcl/generate.h"
 

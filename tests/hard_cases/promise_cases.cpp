@@ -183,6 +183,19 @@ std::vector<HardCase> promise_cases() {
       found("BrightPartOfALargePicture", "the same of stars of 1e4 times white",
             "turned 1 projection perspective picture_size 16384 field_of_view 50 group scatter "
             "places 50 sigma 0.4 peak 1e4"),
+      dark(found("CrowdOfTwoColorsThatEndsBeforeTheFirstPixel",
+                 "a part of no light that is infinite is no number",
+                 "turned 1 knots 3 group corner copies 40 x 50 sigma 5 width_range 1.03642 peak 70",
+                 {LightPlan::emission})),
+      found("StarDeepInAnotherChannel",
+            "where one channel is opaque, its light tells nothing of how deep it is",
+            "light factor tolerance 0.01 turned 1 source 2.3 knots 15 decades 5.98947 group point "
+            "peak 200000 hue 0.642853",
+            {LightPlan::proportional}),
+      found("LayersDeepInAnotherChannel", "the same of layers in order",
+            "light two_sources sampling center tolerance 1e-05 turned 1 star_source 0.7 knots 15 "
+            "group point places 10 copies 30 peak 3 hue 0.857166 star 1",
+            {LightPlan::ordered}),
       found("StarsAtTheEdgeOfThe65536thPixel",
             "integers that hold so wide a picture have steps of 6e-5 pixels",
             "turned 1 tolerance 3.01e-4 picture_size 65536 crop_x 1 group scatter places 24 sigma "

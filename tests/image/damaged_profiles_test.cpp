@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "image/color_profile.h"
+#include "image/picture_encoders.h"
 #include "image/png_chunks.h"
 #include "splotchcl/image_file.h"
 #include "temporary_folder.h"

@@ -1,6 +1,4 @@
 // The table of cells in SWIFT's files, which serves as an index.
-#include "load/cell_index.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

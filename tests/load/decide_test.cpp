@@ -81,6 +81,23 @@ void expect_same(const Column& a, const Column& b) {
     EXPECT_EQ(a[i], b[i]);
 }
 
+TEST(Decide, SaysThatNothingIsDrawnToLessThanAMillionth) {
+  const MemorySnapshot snapshot = some_gas();
+  Scene scene = closed_scene();
+  for (const double tolerance : {0.0, 1e-6, 1e-8}) {
+    scene.tolerance = tolerance;
+    std::vector<std::string> notes;
+    load_frame(scene, snapshot, notes);
+    const auto says_so =
+        ::testing::Contains(::testing::HasSubstr("found 1e-08, which is drawn as 0"));
+    if (tolerance == 1e-8) {
+      EXPECT_THAT(notes, says_so);
+    } else {
+      EXPECT_THAT(notes, ::testing::Not(says_so));
+    }
+  }
+}
+
 TEST(Decide, ReadsNothingWhereNothingIsOpen) {
   const MemorySnapshot snapshot = some_gas();
   decided(closed_scene(), snapshot);

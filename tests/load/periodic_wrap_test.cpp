@@ -1,5 +1,3 @@
-#include "load/periodic_wrap.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
+#include "load/periodic.h"
+#include "load/placement.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
@@ -16,6 +17,8 @@
 
 namespace splotchcl::test {
 namespace {
+
+using ::testing::HasSubstr;
 
 double squared_distance(const std::array<double, 3>& a, const Vec3& b) {
   double sum = 0;
@@ -124,6 +127,46 @@ TEST(PeriodicBox, ThatNobodySaysIsRefused) {
   MemorySnapshot snapshot;
   EXPECT_THROW(periodic_box({true, {}}, snapshot.info()), UsageError);
   EXPECT_EQ(periodic_box({true, 7}, snapshot.info()), 7);
+}
+
+// Doubles that single precision cannot hold well enough are told of.
+
+// Floats from 2^20 to 2^21 are 0.125 apart.
+DrawnComponent component(const std::vector<float>& along_x, float h, double origin) {
+  DrawnComponent component;
+  component.name = "gas";
+  std::vector<float> position, sizes;
+  for (const float x : along_x) {
+    position.insert(position.end(), {x, 0, 0});
+    sizes.push_back(h);
+  }
+  component.particles.count = along_x.size();
+  component.particles.origin = {{origin, 0, 0}};
+  component.particles.position = Column::owning(std::move(position));
+  component.particles.smoothing_length = Column::owning(std::move(sizes));
+  return component;
+}
+
+std::optional<std::string> note_on(const DrawnComponent& component) {
+  return tell_rounded_positions(component, ParticlePass(component.particles.count));
+}
+
+TEST(RoundedPositions, AreCountedWithTheWorst) {
+  const auto note = note_on(component({1, 1.5e6F, 1.1e6F}, 0.5F, 3e7));
+  ASSERT_TRUE(note);
+  EXPECT_THAT(*note, HasSubstr("component gas: 2 of 3 particles"));
+  EXPECT_THAT(*note, HasSubstr("at worst 0.25"));
+}
+
+TEST(RoundedPositions, MayBeATenthOfTheSizeThatIsDrawn) {
+  EXPECT_FALSE(note_on(component({1.5e6F}, 1.25F, 3e7)));
+  DrawnComponent smaller = component({1.5e6F}, 1.25F, 3e7);
+  smaller.size_factor = 0.9;
+  EXPECT_TRUE(note_on(smaller));
+}
+
+TEST(RoundedPositions, OfFilesOfFloatsAreAsTheFileHasThem) {
+  EXPECT_FALSE(note_on(component({1.5e6F}, 1e-3F, 0)));
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 
 #include "load/derived_fields.h"
 #include "load/particles.h"
+#include "scene/particle_columns.h"
 #include "scene/statistics.h"
-#include "scene/streamed_column.h"
 #include "splotchcl/load.h"
 
 namespace splotchcl::test {

@@ -3,15 +3,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numeric>
+
+#include "formats/hdf5/hdf5_values.h"
 #include "map/gas.h"
+#include "paths.h"
 #include "splotchcl/error.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
 
 namespace splotchcl {
 namespace {
 
 using test::Gas;
+using test::Hdf5Output;
 using test::map_of;
 using test::map_scene;
+using test::write_attribute;
+using test::write_values;
 using testing::HasSubstr;
 
 Gas wide_particle() {
@@ -200,6 +210,134 @@ TEST(MapUnits, RefuseAUnitForCounts) {
   scene.map.quantity = "counts";
   scene.map.unit = "K";
   EXPECT_THAT(refusal(scene), HasSubstr("no unit for counts"));
+}
+
+// Maps of files with the header that GIZMO writes, against numbers worked out by hand.
+
+// One particle of mass 2, velocity 3 and internal energy 1e8, in the middle of a pixel.
+class MapUnitsOfGizmo : public ::testing::Test {
+ protected:
+  void write(const std::vector<std::pair<std::string, double>>& header) const {
+    const Hdf5Output file = test::create_hdf5(path_);
+    test::make_group(file, "Header");
+    write_attribute(file, "Header", "NumPart_ThisFile", {1, 0, 0, 0, 0, 0});
+    write_attribute(file, "Header", "GIZMO_version", {2022});
+    for (const auto& [name, value] : header)
+      write_attribute(file, "Header", name, {value});
+    write_values(file, "PartType0/Coordinates", {0, 0, 0}, 3);
+    write_values(file, "PartType0/Velocities", {0, 0, -3}, 3);
+    write_values(file, "PartType0/Masses", {2});
+    write_values(file, "PartType0/SmoothingLength", {0.01});
+    write_values(file, "PartType0/InternalEnergy", {1e8});
+  }
+  double map(const std::string& quantity, const std::string& unit) const {
+    Scene scene = test::map_scene();
+    scene.image.width = scene.image.height = 1;
+    scene.map.width = 1;
+    scene.map.quantity = quantity;
+    scene.map.unit = unit;
+    return static_cast<double>(test::map_of(scene, *open_snapshot(path_)).values[0]);
+  }
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "snapshot_000.hdf5";
+};
+
+// A column of 2e10 Msun/h in (0.5 kpc/h)^2 at h = 0.7 is 2e10 * 0.7 / 0.25 Msun/kpc^2, and GIZMO
+// writes velocities over the root of the scale factor.
+TEST_F(MapUnitsOfGizmo, InABoxAreComovingAndHaveTheHubbleParameter) {
+  write({{"ComovingIntegrationOn", 1},
+         {"Time", 0.5},
+         {"Redshift", 1},
+         {"Omega_Matter", 0.3},
+         {"Omega_Lambda", 0.7},
+         {"HubbleParam", 0.7},
+         {"UnitLength_In_CGS", 3.0856775814913673e21 / 0.7},
+         {"UnitMass_In_CGS", 1.988409870698051e43 / 0.7},
+         {"UnitVelocity_In_CGS", 1e5}});
+  EXPECT_NEAR(map("surface_density", "Msun/kpc^2") / 5.6e10, 1, 1e-6);
+  EXPECT_NEAR(map("line_of_sight_velocity", "km/s"), 3 * std::sqrt(0.5), 1e-6);
+}
+
+// pc, Msun and m/s: 2 Msun/pc^2 = 2 * 1.98841e33 / (3.08568e18)^2 g/cm^2. 1e8 (m/s)^2 are
+// 1e12 (cm/s)^2, and ionized gas has mu = 4 / (8 - 5 * 0.24) = 0.588: T = 2/3 1e12 mu m_p / k_B.
+TEST_F(MapUnitsOfGizmo, OfACloudAreTheHeaders) {
+  write({{"ComovingIntegrationOn", 0},
+         {"Time", 0.01},
+         {"Redshift", 0},
+         {"HubbleParam", 1},
+         {"UnitLength_In_CGS", 3.085678e18},
+         {"UnitMass_In_CGS", 1.989e33},
+         {"UnitVelocity_In_CGS", 100}});
+  EXPECT_NEAR(map("surface_density", "g/cm^2") / 4.1767147e-4, 1, 2e-6);
+  EXPECT_NEAR(map("line_of_sight_velocity", "km/s"), 0.003, 1e-8);
+  EXPECT_NEAR(map("temperature", "K") / 4750.883, 1, 2e-6);
+}
+
+// Mean surface densities and temperatures of real files, against numbers worked out by hand.
+
+Scene scene_of_gas() {
+  Scene scene = test::map_scene();
+  scene.image.width = scene.image.height = 24;
+  scene.tolerance = 1e-3;
+  scene.map.center.reset();
+  scene.map.width.reset();
+  return scene;
+}
+
+double mean_of(const Scene& scene, const std::string& file) {
+  const Map map = map_of(scene, *open_snapshot(test::data_folder() / file));
+  return std::accumulate(map.values.begin(), map.values.end(), 0.0) /
+         static_cast<double>(map.values.size());
+}
+
+#define SKIP_WITHOUT(file)                                            \
+  if (!std::filesystem::exists(test::data_folder() / (file))) {       \
+    GTEST_SKIP() << "no " << (file) << " in " << test::data_folder(); \
+  }                                                                   \
+  static_assert(true)
+
+// 32768 particles of 4.2350764e10 Msun/h in (50000 kpc/h)^2 at a = 0.7 and h = 0.7, so in
+// (50000 kpc)^2: 1.9825014e15 Msun / 2.5e15 pc^2.
+TEST(MapUnitsOfRealFiles, OfGadgetAreWhatTheUserSays) {
+  SKIP_WITHOUT("lcdm/fmt2_snapshot_005");
+  Scene scene = scene_of_gas();
+  scene.map.length_unit = "a kpc/h";
+  scene.map.mass_unit = "1e10 Msun/h";
+  scene.map.unit = "Msun/pc^2";
+  EXPECT_NEAR(mean_of(scene, "lcdm/fmt2_snapshot_005") / 0.79300058, 1, 1e-4);
+}
+
+// 32768 particles of 6.05011e10 Msun in (71.428571 Mpc a)^2 at a = 0.98, so in (70 Mpc)^2:
+// 1.9825e15 Msun / 4.9e15 pc^2; a solar mass per square parsec is 2.08842e-4 g/cm^2.
+TEST(MapUnitsOfRealFiles, OfSwiftAreTheFiles) {
+  SKIP_WITHOUT("swift/swift_lcdm_0000.hdf5");
+  Scene scene = scene_of_gas();
+  scene.map.unit = "Msun/pc^2";
+  EXPECT_NEAR(mean_of(scene, "swift/swift_lcdm_0000.hdf5") / 0.40459180, 1, 1e-4);
+  scene.map.unit = "g/cm^2";
+  EXPECT_NEAR(mean_of(scene, "swift/swift_lcdm_0000.hdf5") / (0.40459180 * 2.08842e-4), 1, 1e-4);
+}
+
+// 1000 particles of 5.05e-5 Msun and a file in au; all of them, whatever their lengths.
+TEST(MapUnitsOfRealFiles, OfPhantomAreTheFiles) {
+  const std::string file = "phantom/dustmixture_00000.h5";
+  SKIP_WITHOUT(file);
+  Scene scene = scene_of_gas();
+  scene.map.width = 10000;
+  scene.map.unit = "g/cm^2";
+  const double area = std::pow(10000 * 1.495978707e13, 2);
+  EXPECT_NEAR(mean_of(scene, file) * area / (1000 * 5.05e-5 * 1.98841e33), 1, 1e-4);
+}
+
+// 20000 particles of 2.3251971288e6 Msun in (1000 kpc)^2.
+TEST(MapUnitsOfRealFiles, OfGadgetFourAreTheFiles) {
+  const std::string file = "galaxy_collision/snapshot_000.hdf5";
+  SKIP_WITHOUT(file);
+  Scene scene = scene_of_gas();
+  scene.components.front().types = {2};
+  scene.map.width = 1000;
+  scene.map.unit = "Msun/pc^2";
+  EXPECT_NEAR(mean_of(scene, file) / (20000 * 2.3251971288e6 / 1e12), 1, 1e-4);
 }
 
 }  // namespace

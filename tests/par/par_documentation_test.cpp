@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "par/par_keys.h"
+#include "par/par_file.h"
 #include "paths.h"
 #include "temporary_folder.h"
 

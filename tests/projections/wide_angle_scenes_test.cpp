@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <string>
 #include <vector>
 
-#include "device/pictures.h"
-#include "long_tests.h"
-#include "projections/wide_scene_maker.h"
+#include "frames/random_frames.h"
+#include "frames/random_promise.h"
 
 namespace splotchcl::test {
 namespace {
@@ -42,28 +39,13 @@ std::vector<double> light_on_edges(const Frame& frame, double known_to) {
   return light;
 }
 
-std::string describe(const Frame& frame) {
-  std::ostringstream out;
-  out << name(choose_light(frame)) << ", projection " << static_cast<int>(frame.projection) << ", "
-      << frame.width << " x " << frame.height << ", cut " << frame.kernel.cut.value_or(0)
-      << ", eye " << frame.camera.eye_offset << ", tolerance " << frame.tolerance;
-  return out.str();
-}
-
-double worst_error(const Frame& frame, const Image& image, const ReferenceImage& exact,
-                   double known_to) {
-  const std::vector<double> ambiguous = light_on_edges(frame, known_to);
-  double worst = 0;
-  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
-    if (i % 4 == 3) continue;
-    const double error = std::abs(static_cast<double>(image.pixels[i]) - exact.pixels[i]);
-    const double beyond = (error - ambiguous[i / 4]) / std::max(1.0, std::abs(exact.pixels[i]));
-    worst = std::max(worst, std::isfinite(beyond) ? beyond : 1e300);
-  }
-  return worst;
-}
-
-class WideAngleScenes : public PictureTest {};
+class WideAngleScenes : public RandomPromise {
+ protected:
+  // In single precision: poles magnify.
+  static constexpr double single_place = 1e-3;
+  const RandomKind kind_ = {[](std::uint64_t seed) { return WideSceneMaker(seed).make(); }, 2.0 / 3,
+                            light_on_edges, single_place};
+};
 
 TEST_F(WideAngleScenes, ShowAnEvenSkyEvenlyUpToThePolesOfAPanorama) {
   const Frame frame = wide_frame({Projection::equirectangular, 120, 60}, {even_sky(16000, 0.04)});
@@ -78,44 +60,13 @@ TEST_F(WideAngleScenes, ShowAnEvenSkyEvenlyUpToThePolesOfAPanorama) {
   }
 }
 
-// Single precision: poles magnify.
-constexpr double single_place = 1e-3;
-
 TEST_F(WideAngleScenes, KeepTheirTolerance) {
-  int drawn = 0, lit = 0;
-  for (const std::uint64_t seed : seeds(1, 90, 13)) {
-    ++drawn;
-    const Frame frame = WideSceneMaker(seed).make();
-    const ReferenceImage exact = reference::render(frame);
-    lit += largest_value(exact) > 0.05;
-    EXPECT_LE(worst_error(frame, draw(frame), exact, single_place), frame.tolerance)
-        << "seed " << seed << ": " << describe(frame);
-    if (seed % 3 != 0) continue;
-    EXPECT_LE(worst_error(frame, draw(frame, CompositeShape::groups), exact, single_place),
-              frame.tolerance)
-        << "in groups, seed " << seed << ": " << describe(frame);
-  }
-  EXPECT_GT(3 * lit, 2 * drawn) << "most scenes should have something to see";
+  expect_tolerance_kept(kind_, seeds(1, 90, 13));
 }
 
-// With numbers that are doubles and pairs of floats, in both shapes in turn.
+// Nearly every scene has kernels of its own, which take seconds to compile.
 TEST_F(WideAngleScenes, KeepThePromiseOfToleranceZero) {
-  Renderer pairs({"", CompositeShape::rows, false}),
-      pairs_in_groups({"", CompositeShape::groups, false});
-  // Nearly every scene has kernels of its own, which take seconds to compile.
-  for (const std::uint64_t seed : seeds(2001, long_tests() ? 2100 : 2050)) {
-    Frame frame = WideSceneMaker(seed).make();
-    frame.tolerance = 0;
-    const ReferenceImage exact = reference::render(frame);
-    const CompositeShape shape = seed % 2 == 0 ? CompositeShape::rows : CompositeShape::groups;
-    Renderer& by_pairs = seed % 2 == 0 ? pairs : pairs_in_groups;
-    EXPECT_LE(worst_error(frame, draw(frame, shape), exact, 1e-9), extended_tolerance)
-        << "seed " << seed << ": " << describe(frame);
-    EXPECT_LE(worst_error(frame, by_pairs.render(frame), exact, 1e-9), extended_tolerance)
-        << "pairs, seed " << seed << ": " << describe(frame);
-    EXPECT_EQ(renderer(shape).stats().bad_particles, reference::count_bad(frame))
-        << "seed " << seed;
-  }
+  expect_tolerance_zero_kept(kind_, seeds(2001, 2100));
 }
 
 }  // namespace

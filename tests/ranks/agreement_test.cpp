@@ -1,5 +1,3 @@
-#include "ranks/agreement.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -7,8 +5,8 @@
 #include <mutex>
 #include <string>
 
+#include "ranks/exchange.h"
 #include "ranks/thread_ranks.h"
-#include "ranks/values.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::test {

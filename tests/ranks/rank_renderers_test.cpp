@@ -1,4 +1,3 @@
-// Renderers of several ranks: what is decided while a frame is drawn is decided alike.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -6,11 +5,14 @@
 #include <vector>
 
 #include "device/scenes.h"
+#include "ranks/mpi_library.h"
 #include "ranks/thread_ranks.h"
 #include "splotchcl/renderer.h"
 
 namespace splotchcl::test {
 namespace {
+
+// Renderers of several ranks: what is decided while a frame is drawn is decided alike.
 
 struct Rendered {
   Image image;
@@ -104,6 +106,17 @@ TEST(RankRenderers, TellWhatEachHasDone) {
     EXPECT_GE(splats, one.stats.drawn_particles);
     EXPECT_EQ(one.stats.processes[2].host, "host2");
   }
+}
+
+TEST(SharedHost, SharesOutItsCores) {
+  EXPECT_EQ(cores_of_rank(16, 16, 4), 4);
+  EXPECT_EQ(cores_of_rank(16, 16, 3), 5);
+  EXPECT_EQ(cores_of_rank(2, 2, 4), 1);
+}
+
+TEST(SharedHost, LeavesARankTheCoresThatItIsBoundTo) {
+  EXPECT_EQ(cores_of_rank(16, 4, 4), 4);
+  EXPECT_EQ(cores_of_rank(16, 1, 4), 1);
 }
 
 }  // namespace

@@ -1,18 +1,18 @@
-// Which particles are drawn, where, how large and how bright.
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
 
+#include "frames.h"
 #include "reference/frames.h"
 #include "splotchcl/reference.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using test::Cloud;
-using test::component_of;
-using test::frame_of;
-using test::one_color;
+// Which particles are drawn, where, how large and how bright.
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -209,5 +209,45 @@ TEST(Project, NumbersParticlesThroughAllComponents) {
   EXPECT_EQ(drawn(frame), (std::vector<std::uint64_t>{1, 3}));
 }
 
+// Who waits for the reference is told how far it is, and may end it.
+
+Frame some_frame() {
+  Cloud cloud;
+  cloud.sigma = 5;
+  Palette palette;
+  palette.emission = {Rgb{1.0f, 0.5f, 0.25f}};
+  return frame_of(64, 200, {component_of({cloud}, palette)});
+}
+
+TEST(ReferenceProgress, GrowsToTheWholeFrame) {
+  std::vector<double> told;
+  std::mutex mutex;
+  reference::render(some_frame(), [&](double fraction) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    told.push_back(fraction);
+  });
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1);
+}
+
+// Each thread asks once more at most, so that a picture of many rows ends long before its end.
+TEST(ReferenceProgress, EndsAllThreadsByWhatItThrows) {
+  int calls = 0;
+  std::mutex mutex;
+  const auto stop = [&](double) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    ++calls;
+    throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(reference::render(some_frame(), stop), std::runtime_error);
+  EXPECT_GE(calls, 1);
+}
+
+TEST(ReferenceProgress, DoesNotChangeThePicture) {
+  const Frame frame = some_frame();
+  EXPECT_EQ(reference::render(frame, [](double) {}).pixels, reference::render(frame).pixels);
+}
+
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

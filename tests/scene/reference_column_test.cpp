@@ -1,9 +1,9 @@
-#include "scene/reference_column.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "scene/statistics.h"
 
 namespace splotchcl {
 namespace {

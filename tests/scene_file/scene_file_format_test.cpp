@@ -6,7 +6,7 @@
 
 #include "long_tests.h"
 #include "scene_file/random_scenes.h"
-#include "scene_file/same_scene.h"
+#include "scene_file/scene_checks.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 

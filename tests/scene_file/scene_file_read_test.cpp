@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "scene_file/same_scene.h"
+#include "scene_file/scene_checks.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"

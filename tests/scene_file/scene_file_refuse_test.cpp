@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene_file/scene_file_messages.h"
+#include "scene_file/scene_checks.h"
 
 namespace splotchcl {
 namespace {

@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene_file/same_scene.h"
-#include "scene_file/scene_file_messages.h"
+#include "scene_file/scene_checks.h"
 #include "scene_file/suggested.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"

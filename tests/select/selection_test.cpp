@@ -1,4 +1,6 @@
 // Which particles a component draws.
+#include "select/selection.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 #include <limits>
 
 #include "load/particles.h"
-#include "select/condition.h"
 #include "temporary_folder.h"
 
 namespace splotchcl::test {

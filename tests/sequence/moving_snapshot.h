@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sequence/interpolated_snapshot.h"
-#include "sequence/sequence_member.h"
+#include "sequence/snapshot_pair.h"
 #include "snapshot/memory_snapshot.h"
 
 namespace splotchcl::test {

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "load/passes.h"
-#include "ranks/agreement.h"
+#include "ranks/exchange.h"
 #include "ranks/forwarding_ranks.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"

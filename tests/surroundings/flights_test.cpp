@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "device/pictures.h"
+#include "frames/random_frames.h"
 #include "paths.h"
 #include "splotchcl/load.h"
 #include "splotchcl/snapshot_file.h"
-#include "surroundings/frames_around.h"
 
 namespace splotchcl::test {
 namespace {

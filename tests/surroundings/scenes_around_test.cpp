@@ -4,41 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "device/pictures.h"
+#include "frames/random_frames.h"
+#include "frames/random_promise.h"
 #include "long_tests.h"
-#include "surroundings/frames_around.h"
 
 namespace splotchcl::test {
 namespace {
 
-std::string describe(const Frame& frame) {
-  std::ostringstream out;
-  out << name(choose_light(frame)) << ", projection " << static_cast<int>(frame.projection) << ", "
-      << frame.width << " x " << frame.height << ", crop " << frame.crop.x << "," << frame.crop.y
-      << "," << frame.crop.width << "," << frame.crop.height << ", eye " << frame.camera.eye_offset
-      << ", tolerance " << frame.tolerance;
-  return out.str();
-}
-
-class ScenesAround : public PictureTest {};
+class ScenesAround : public RandomPromise {
+ protected:
+  const RandomKind kind_ = {[](std::uint64_t seed) { return AroundSceneMaker(seed).make(); }};
+};
 
 TEST_F(ScenesAround, KeepTheirTolerance) {
-  int drawn = 0, lit = 0;
-  for (const std::uint64_t seed : seeds(1, 160, 13)) {
-    ++drawn;
-    const Frame frame = AroundSceneMaker(seed).make();
-    const ReferenceImage exact = reference::render(frame);
-    lit += largest_value(exact) > 0.05;
-    const CompositeShape shape = seed % 3 == 0 ? CompositeShape::groups : CompositeShape::rows;
-    EXPECT_LE(largest_error(draw(frame, shape), exact), frame.tolerance)
-        << "seed " << seed << ": " << describe(frame);
-  }
-  EXPECT_GT(3 * lit, 2 * drawn) << "most scenes should have something to see";
+  expect_tolerance_kept(kind_, seeds(1, 160, 13));
 }
 
 // In ordered pictures in which none of them is narrow.
@@ -60,26 +44,15 @@ TEST_F(ScenesAround, KeepTheirToleranceInLists) {
 }
 
 TEST_F(ScenesAround, KeepThePromiseOfToleranceZero) {
-  Renderer pairs({"", CompositeShape::automatic, false});
-  for (const std::uint64_t seed : seeds(1001, 1060, 13)) {
-    Frame frame = AroundSceneMaker(seed).make();
-    frame.tolerance = 0;
-    const ReferenceImage exact = reference::render(frame);
-    const Image image = seed % 2 == 0 ? pairs.render(frame) : draw(frame);
-    EXPECT_LE(largest_error(image, exact), extended_tolerance)
-        << "seed " << seed << ": " << describe(frame);
-  }
+  expect_tolerance_zero_kept(kind_, seeds(1001, 1060, 13));
 }
 
 TEST_F(ScenesAround, KeepTheirToleranceWithABound) {
   RendererOptions options;
   options.certify = true;
   Renderer renderer(options);
-  for (const std::uint64_t seed : seeds(2001, 2020)) {
-    const Frame frame = AroundSceneMaker(seed).make();
-    EXPECT_LE(largest_error(renderer.render(frame), reference::render(frame)), frame.tolerance)
-        << "seed " << seed << ": " << describe(frame);
-  }
+  for (const std::uint64_t seed : seeds(2001, 2020))
+    expect_kept(kind_, kind_.make(seed), renderer, seed);
 }
 
 TEST_F(ScenesAround, KeepTheirToleranceInSlabs) {

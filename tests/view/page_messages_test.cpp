@@ -1,16 +1,23 @@
-// What a page may say, and what is refused.
 #include "view/requests/page_messages.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+#include <vector>
+
+#include "matches.h"
 #include "splotchcl/error.h"
+#include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+
+// What a page may say, and what is refused.
 
 PageState state_of(const std::string& settings, const std::string& hidden = "[]") {
   return std::get<PageState>(
@@ -120,6 +127,118 @@ TEST(PageMessages, WhatIsNoMessageIsRefused) {
 TEST(PageMessages, HugeAndDeepOnesAreRefused) {
   EXPECT_THAT(refusal(std::string(longest_message_bytes + 1, ' ')), HasSubstr("64 KiB"));
   EXPECT_THAT(refusal(std::string(30000, '[')), HasSubstr("nested"));
+}
+
+// The files of the page are in the program.
+
+TEST(PageFiles, ThePageItselfHasNoName) {
+  const auto page = find_page_file("");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->type, "text/html; charset=utf-8");
+  EXPECT_EQ(page->text.substr(0, 9), "<!doctype");
+}
+
+TEST(PageFiles, HaveTheirTypes) {
+  EXPECT_EQ(find_page_file("style.css")->type, "text/css; charset=utf-8");
+  EXPECT_EQ(find_page_file("app.js")->type, "text/javascript; charset=utf-8");
+}
+
+TEST(PageFiles, NoOthersAreServed) {
+  for (const char* const name : {"../CMakeLists.txt", "/etc/passwd", "app", ".", "App.js"})
+    EXPECT_FALSE(find_page_file(name)) << name;
+}
+
+TEST(PageFiles, ScriptsImportOnlyThoseThatAreThere) {
+  const std::string script(find_page_file("app.js")->text);
+  const std::vector<test::Match> imports = test::matches_of(script, "from '\\./([a-z_.]+)'");
+  for (const test::Match& import : imports)
+    EXPECT_TRUE(find_page_file(import[1])) << import[1];
+  EXPECT_GT(imports.size(), 3U);
+}
+
+// Who may talk to the server of the live view.
+
+const std::string token = "0123456789abcdef0123456789abcdef";
+
+bool lets_in(const RequestSource& source, const std::string& address = "127.0.0.1") {
+  try {
+    AccessRules(token, address).check_request(source);
+    return true;
+  } catch (const AccessDenied&) {
+    return false;
+  }
+}
+
+bool lets_socket_in(const RequestSource& source) {
+  try {
+    AccessRules(token, "127.0.0.1").check_socket(source);
+    return true;
+  } catch (const AccessDenied&) {
+    return false;
+  }
+}
+
+const std::string page = "/" + token + "/";
+
+TEST(Token, HasThirtyTwoDigitsAndIsAnotherEachTime) {
+  std::set<std::string> tokens;
+  for (int i = 0; i < 20; ++i)
+    tokens.insert(make_token());
+  EXPECT_EQ(tokens.size(), 20u);
+  EXPECT_EQ(tokens.begin()->size(), 32u);
+  EXPECT_EQ(tokens.begin()->find_first_not_of("0123456789abcdef"), std::string::npos);
+}
+
+TEST(Access, IsForTheTokenAtTheStartOfThePath) {
+  const AccessRules rules(token, "127.0.0.1");
+  EXPECT_EQ(rules.check_request({page, "127.0.0.1:80", ""}), "");
+  EXPECT_EQ(rules.check_request({page + "app.js?x=1", "127.0.0.1:80", ""}), "app.js");
+}
+
+TEST(Access, IsNotForOtherTokens) {
+  for (const std::string& target :
+       {std::string("/"), std::string(), std::string("/app.js"), "/" + token, "//" + token + "/",
+        "/" + token + "0/", "/" + token.substr(1) + "/", "/x?/" + token + "/",
+        "/" + std::string(32, '0') + "/"})
+    EXPECT_FALSE(lets_in({target, "127.0.0.1:80", ""})) << target;
+}
+
+TEST(Access, IsForTheNamesOfThisMachineAtAnyPort) {
+  for (const char* const host :
+       {"127.0.0.1:8080", "localhost:8080", "127.0.0.1", "[::1]:8080", "localhost"})
+    EXPECT_TRUE(lets_in({page, host, ""})) << host;
+}
+
+TEST(Access, IsNotForOtherNamesThatLeadHere) {
+  for (const char* const host : {"evil.example", "evil.example:8080", "127.0.0.1.evil.example",
+                                 "localhost.evil.example:80", "", ":80", "127.0.0.2", "LOCALHOST"})
+    EXPECT_FALSE(lets_in({page, host, ""})) << host;
+}
+
+TEST(Access, IsForTheAddressThatIsListenedOn) {
+  EXPECT_TRUE(lets_in({page, "192.0.2.7:80", ""}, "192.0.2.7"));
+  EXPECT_TRUE(lets_in({page, "[2001:db8::7]:80", ""}, "2001:db8::7"));
+  EXPECT_FALSE(lets_in({page, "192.0.2.8:80", ""}, "192.0.2.7"));
+}
+
+TEST(Access, IsForEveryAddressInNumbersWhereAllAreListenedOn) {
+  EXPECT_TRUE(lets_in({page, "192.0.2.7:80", ""}, "0.0.0.0"));
+  EXPECT_TRUE(lets_in({page, "[2001:db8::7]:80", ""}, "::"));
+  EXPECT_FALSE(lets_in({page, "evil.example:80", ""}, "0.0.0.0"));
+  EXPECT_FALSE(lets_in({page, ":80", ""}, "0.0.0.0"));
+}
+
+TEST(Access, IsForThePagesOwnOriginOnly) {
+  EXPECT_TRUE(lets_in({page, "127.0.0.1:80", "http://127.0.0.1:80"}));
+  for (const char* const origin :
+       {"http://evil.example", "http://127.0.0.1:81", "http://localhost:80", "https://127.0.0.1:80",
+        "http://127.0.0.1:80/", "null"})
+    EXPECT_FALSE(lets_in({page, "127.0.0.1:80", origin})) << origin;
+}
+
+TEST(Access, OfSocketsNeedsAnOrigin) {
+  EXPECT_TRUE(lets_socket_in({page + "live", "127.0.0.1:80", "http://127.0.0.1:80"}));
+  EXPECT_FALSE(lets_socket_in({page + "live", "127.0.0.1:80", ""}));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "device/frame/variant.h"
 #include "device/opencl/launch.h"
 #include "scene/ceil_divide.h"
-#include "scene/same_columns.h"
+#include "scene/particle_columns.h"
 
 namespace splotchcl {
 namespace {

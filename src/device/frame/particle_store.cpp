@@ -8,7 +8,7 @@
 
 #include "device/frame/column_interpolator.h"
 #include "scene/memory_advice.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "between/interpolated_column.h"
+#include "between/interpolation.h"
 #include "device/frame/block_boxes.h"
 #include "device/frame/chunks.h"
 #include "device/frame/view_bounds.h"

@@ -1,5 +1,7 @@
 #include "device/frame/variant.h"
 
+#include <utility>
+
 #include "device/frame/shared.h"
 #include "scene/plan/splat_limits.h"
 #include "surroundings/cloud_around.h"
@@ -11,19 +13,6 @@ std::string define(const std::string& name_and_value) {
   return "#define " + name_and_value + "\n";
 }
 
-std::string define_if(bool condition, const std::string& name_and_value) {
-  return condition ? define(name_and_value) : std::string();
-}
-
-// A constant that kernels ask for by `if`, or `#if` where something is declared.
-std::string flag(bool value, const std::string& name) {
-  return define(name + (value ? " 1" : " 0"));
-}
-
-std::string define(const std::string& name, std::uint64_t value) {
-  return define(name + " " + std::to_string(value));
-}
-
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than
 // 3e-5, but adding up smaller blocks takes rows as long as drawing them. Sums of light to three
 // digits need none beside the lists; opacities stand still behind too many layers. Behind many
@@ -32,38 +21,43 @@ std::string splats_of_block(const Variant& v) {
   if (v.small_blocks && v.is_ordered()) return define("SPLATS_OF_BLOCK 32u");
   if (v.small_blocks || !v.rows) return define("SPLATS_OF_BLOCK 64u");
   if (v.full_precision) return define("SPLATS_OF_BLOCK 256u");
-  return define_if(v.is_ordered(), "SPLATS_OF_BLOCK 1024u");
+  return v.is_ordered() ? define("SPLATS_OF_BLOCK 1024u") : "";
 }
 
-std::string wide_angle(const Variant& v) {
-  return flag(is_wide_angle(v.projection), "WIDE_ANGLE") +
-         flag(v.projection == Projection::fisheye, "PROJECTION_FISHEYE") +
-         flag(v.projection == Projection::equirectangular, "PROJECTION_EQUIRECTANGULAR") +
-         flag(v.copies, "COPIES") + flag(v.ellipses, "ELLIPSES") +
-         flag(v.face_of_cube, "FACE_OF_CUBE");
-}
-
-std::string numbers(const Variant& v) {
-  return define_if(v.rows, "LANES_8") + flag(v.extended, "EXTENDED_NUMBERS") +
-         flag(v.double_numbers, "DOUBLE_NUMBERS") + flag(v.full_precision, "FULL_PRECISION") +
-         splats_of_block(v);
-}
-
-std::string layout(const Variant& v) {
-  return flag(v.vector_colors, "VECTOR_COLORS") + flag(v.fine_places, "FINE_PLACES") +
-         flag(v.has_whole_sectors(), "WHOLE_SECTORS") + flag(v.has_own_tiles(), "TILES_IN_SPLAT") +
-         define("TILE_WIDTH", v.tile_width) + define("TILE_HEIGHT", v.tile_height) +
-         define("PLANES", v.planes()) + define("SUMMED", v.sums) +
-         define("EIGHTS_OF_ITEM", v.eights_of_item()) +
-         define("PIXELS_BEHIND", static_cast<std::uint64_t>(v.pixels_behind()));
-}
-
-std::string light(const Variant& v) {
-  return flag(v.is_ordered(), "LIGHT_ORDERED") +
-         flag(v.light == LightPlan::emission, "LIGHT_EMISSION") +
-         flag(v.keeps_transmittance, "KEEP_TRANSMITTANCE") + flag(v.kernel_cut, "KERNEL_CUT") +
-         flag(v.pixel_means, "SAMPLING_MEAN") + flag(v.stencils, "STENCILS") +
-         flag(v.clouds_around, "CLOUDS_AROUND") + flag(v.background_image, "BACKGROUND_IMAGE");
+// Constants that kernels ask for by `if`, or `#if` where something is declared.
+std::string defines_of(const Variant& v) {
+  const std::pair<const char*, std::uint64_t> constants[] = {
+      {"LIGHT_ORDERED", v.is_ordered()},
+      {"LIGHT_EMISSION", v.light == LightPlan::emission},
+      {"WIDE_ANGLE", is_wide_angle(v.projection)},
+      {"PROJECTION_FISHEYE", v.projection == Projection::fisheye},
+      {"PROJECTION_EQUIRECTANGULAR", v.projection == Projection::equirectangular},
+      {"EXTENDED_NUMBERS", v.extended},
+      {"DOUBLE_NUMBERS", v.double_numbers},
+      {"FULL_PRECISION", v.full_precision},
+      {"FINE_PLACES", v.fine_places},
+      {"KERNEL_CUT", v.kernel_cut},
+      {"SAMPLING_MEAN", v.pixel_means},
+      {"VECTOR_COLORS", v.vector_colors},
+      {"ELLIPSES", v.ellipses},
+      {"COPIES", v.copies},
+      {"FACE_OF_CUBE", v.face_of_cube},
+      {"KEEP_TRANSMITTANCE", v.keeps_transmittance},
+      {"CLOUDS_AROUND", v.clouds_around},
+      {"STENCILS", v.stencils},
+      {"BACKGROUND_IMAGE", v.background_image},
+      {"WHOLE_SECTORS", v.has_whole_sectors()},
+      {"TILES_IN_SPLAT", v.has_own_tiles()},
+      {"TILE_WIDTH", v.tile_width},
+      {"TILE_HEIGHT", v.tile_height},
+      {"PLANES", v.planes()},
+      {"SUMMED", v.sums},
+      {"EIGHTS_OF_ITEM", v.eights_of_item()},
+      {"PIXELS_BEHIND", static_cast<std::uint64_t>(v.pixels_behind())}};
+  std::string defines = v.rows ? define("LANES_8") : "";
+  for (const auto& [name, value] : constants)
+    defines += define(name + (" " + std::to_string(value)));
+  return defines + splats_of_block(v);
 }
 
 std::string defines_of(const Choices& choices) {
@@ -146,7 +140,7 @@ ProgramSource program_source(const std::string& file, const Choices& choices) {
 ProgramSource program_source(const Variant& variant, const std::string& file,
                              const Choices& choices) {
   ProgramSource source = program_source(file, choices);
-  source.variant = numbers(variant) + light(variant) + layout(variant) + wide_angle(variant);
+  source.variant = defines_of(variant);
   return source;
 }
 

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <utility>
 
-#include "scene/word_hash.h"
+#include "scene/hash.h"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <sys/stat.h>

@@ -7,7 +7,7 @@
 #include "device/frame/chunks.h"
 #include "device/ranks/rank_share.h"
 #include "ranks/spread_particles.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 
 namespace splotchcl {
 namespace {

@@ -9,7 +9,7 @@
 #include "device/ranks/rank_share.h"
 #include "device/ranks/splat_packets.h"
 #include "device/stages/project_parameters.h"
-#include "ranks/values.h"
+#include "ranks/exchange.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "finish/tone_levels.h"
+#include "finish/tone.h"
 #include "parallel/in_background.h"
 #include "pictures/other_scenes.h"
 

@@ -14,9 +14,9 @@
 #include <utility>
 
 #include "common/file_identity.h"
-#include "common/folder_of.h"
+#include "common/folders.h"
+#include "common/mapped_file.h"
 #include "common/reason.h"
-#include "common/text_file.h"
 #include "common/unfinished_file.h"
 #include "film/movie/encoder.h"
 #include "splotchcl/error.h"

@@ -3,8 +3,18 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace splotchcl {
+
+// The frames that "FIRST:END:STEP" names among those of a film: FIRST, FIRST + STEP, ... before
+// END. Each of the three may be left out ("100:", ":200", "::10"); a single number is one
+// frame; nothing is all frames. Throws UsageError.
+std::vector<int> select_frames(const std::string& text, int frame_count);
+
+// The share of part K of N, given as "K/N", K from 1: neighbouring frames, all parts together
+// being all of them. Nothing is all. Throws UsageError.
+std::vector<int> select_part(const std::string& text, const std::vector<int>& frames);
 
 // Files whose names differ by a number, which a pattern such as turn_%04d.png has a place for:
 // exactly one %d, or with a width as printf knows it, %4d or %04d, in the file's name.

@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "film/path/path_table.h"
-#include "scene/direction_track.h"
-#include "scene/spline.h"
+#include "scene/curves.h"
 #include "scene_file/setting.h"
 #include "scene_file/values.h"
 #include "splotchcl/error.h"

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "common/nearest_name.h"
+#include "common/words.h"
 #include "film/path/path_table.h"
 #include "scene_file/keys.h"
 #include "scene_file/setting.h"

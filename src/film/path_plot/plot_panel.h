@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "finish/canvas.h"
+#include "finish/overlay.h"
 #include "image/text.h"
 #include "splotchcl/vector.h"
 

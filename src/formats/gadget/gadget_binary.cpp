@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "formats/gadget/gadget_blocks.h"
-#include "formats/gadget/gadget_members.h"
+#include "formats/gadget/gadget_header.h"
 #include "formats/position_origin.h"
 #include "formats/snapshot_format.h"
 #include "snapshot/field_names.h"

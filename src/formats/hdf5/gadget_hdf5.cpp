@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <map>
 
-#include "formats/gadget/gadget_members.h"
-#include "formats/hdf5/gadget_hdf5_fields.h"
+#include "formats/gadget/gadget_header.h"
 #include "formats/hdf5/gadget_hdf5_header.h"
-#include "formats/hdf5/gizmo_units.h"
 #include "formats/hdf5/hdf5_column.h"
-#include "formats/hdf5/hdf5_field_unit.h"
 #include "formats/hdf5/hdf5_formats.h"
+#include "formats/hdf5/hdf5_units.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "formats/hdf5/hdf5_file.h"
-#include "formats/limits.h"
+#include "formats/snapshot_format.h"
 #include "scene/ceil_divide.h"
 #include "splotchcl/error.h"
 

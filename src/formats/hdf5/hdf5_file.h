@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "formats/hdf5/hdf5_handle.h"
 #include "formats/hdf5/hdf5_links.h"
 
 namespace splotchcl {

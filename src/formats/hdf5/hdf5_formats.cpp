@@ -1,6 +1,7 @@
 #include "formats/hdf5/hdf5_formats.h"
 
 #include <fmt/format.h>
+#include <hdf5.h>
 
 #include "formats/snapshot_format.h"
 #include "snapshot/snapshot_files.h"
@@ -53,6 +54,11 @@ class Hdf5Formats : public SnapshotFormat {
 const SnapshotFormat& hdf5_formats() {
   static const Hdf5Formats formats;
   return formats;
+}
+
+bool can_read_concurrently() {
+  hbool_t is_safe = 0;
+  return H5is_library_threadsafe(&is_safe) >= 0 && is_safe > 0;
 }
 
 }  // namespace splotchcl

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "common/folder_of.h"
+#include "common/folders.h"
 #include "common/mapped_file.h"
 #include "splotchcl/error.h"
 

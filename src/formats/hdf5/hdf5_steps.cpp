@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/words.h"
-#include "snapshot/particle_types.h"
+#include "snapshot/field_names.h"
 
 namespace splotchcl {
 namespace {

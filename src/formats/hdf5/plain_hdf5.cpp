@@ -7,14 +7,13 @@
 #include <map>
 
 #include "formats/hdf5/hdf5_column.h"
-#include "formats/hdf5/hdf5_field_unit.h"
 #include "formats/hdf5/hdf5_formats.h"
 #include "formats/hdf5/hdf5_steps.h"
+#include "formats/hdf5/hdf5_units.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
-#include "snapshot/particle_types.h"
-#include "snapshot/unit_ratio.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -8,7 +8,6 @@
 #include <map>
 #include <optional>
 
-#include "formats/limits.h"
 #include "formats/numpy/numpy_array.h"
 #include "formats/numpy/zip_archive.h"
 #include "formats/snapshot_format.h"

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,5 +45,12 @@ bool is_numpy_array(const std::byte* data, std::uint64_t size);
 // of the whole array, which must be what its shape needs (a pickle has any). Throws DataError.
 NumpyHeader read_numpy_header(const std::byte* data, std::uint64_t size, std::uint64_t file_size,
                               const std::string& name);
+
+// Whether a file is an array of NumPy (.npy), by its first bytes. Throws DataError.
+bool is_numpy_file(const std::filesystem::path& path);
+
+// The whole numbers of an array of one dimension, in a file of its own. Throws DataError for any
+// other.
+std::vector<std::uint64_t> read_numpy_integers(const std::filesystem::path& path);
 
 }  // namespace splotchcl

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "formats/limits.h"
+#include "formats/snapshot_format.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

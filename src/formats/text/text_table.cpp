@@ -11,7 +11,6 @@
 #include <optional>
 #include <string_view>
 
-#include "formats/limits.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
 #include "formats/table_names.h"

@@ -1,9 +1,9 @@
-#include "film/movie/frame_range.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "film/movie/numbered_files.h"
 #include "film/path/path_messages.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
@@ -49,6 +49,29 @@ TEST(SelectPart, MayBeEmptyWithMorePartsThanFrames) {
 TEST(SelectPart, RefusesWhatIsNoPart) {
   for (const std::string text : {"0/3", "4/3", "1", "1/", "/3", "a/b", "1/2/3", "-1/3"})
     EXPECT_THAT(refusal([&] { select_part(text, {1, 2, 3}); }), HasSubstr("expected K/N"));
+}
+
+std::string file_at(const std::string& pattern, int number) {
+  return NumberedFiles::require(pattern, "--output").at(number).string();
+}
+
+TEST(NumberedFiles, HaveTheNumberAsPrintfWritesIt) {
+  EXPECT_EQ(file_at("turn_%d.png", 7), "turn_7.png");
+  EXPECT_EQ(file_at("turn_%04d.png", 7), "turn_0007.png");
+  EXPECT_EQ(file_at("turn_%3d.png", 7), "turn_  7.png");
+  EXPECT_EQ(file_at("turn_%02d.png", 1234), "turn_1234.png");
+}
+
+TEST(NumberedFiles, KeepTheirFolder) {
+  EXPECT_EQ(file_at("a/100%/t%d.png", 3), "a/100%/t3.png");
+}
+
+TEST(NumberedFiles, NeedOneNumberInTheName) {
+  for (const char* const pattern : {"turn.png", "turn_%s.png", "%d_%d.png", "turn_%", "%04x.png",
+                                    "turn_%d/frame.png", "turn_%0000000d.png", "100%_%d.png", ""}) {
+    EXPECT_FALSE(NumberedFiles::find(pattern)) << pattern;
+    EXPECT_THROW(NumberedFiles::require(pattern, "--output"), UsageError) << pattern;
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "film/path/path_messages.h"
+#include "scene/expect_near.h"
 #include "splotchcl/scene_file.h"
 #include "temporary_folder.h"
 
@@ -15,6 +16,7 @@ namespace splotchcl {
 namespace {
 
 using boost::qvm::mag;
+using test::expect_near;
 using test::refusal;
 using ::testing::HasSubstr;
 
@@ -37,11 +39,6 @@ std::vector<Scene> frames(const std::string& text) {
 }
 std::string message(const std::string& text) {
   return refusal([&] { frames(text); });
-}
-
-void expect_near(const Vec3& a, const Vec3& b, double limit) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    EXPECT_NEAR(a.a[axis], b.a[axis], limit);
 }
 
 TEST(Orbit, GoesOnceAroundTheLookAtPoint) {

@@ -3,7 +3,7 @@
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_checks.h"
-#include "scene/streamed_column.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 

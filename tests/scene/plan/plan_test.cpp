@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "reference/frames.h"
@@ -121,7 +122,7 @@ TEST(Plan, SortsOnlyWhatItOrders) {
 
 TEST(Plan, SharesOutTheWholeTolerance) {
   for (const Kind kind : {Kind::none, Kind::as_emission, Kind::gray}) {
-    for (const double tolerance : {0.0, 1e-6, 1e-3, 1.0}) {
+    for (const double tolerance : {0.0, 1e-8, 1e-6, 1e-3, 1.0}) {
       Frame frame = frame_of({component(kind, 1)});
       frame.tolerance = tolerance;
       const FramePlan plan = make_plan(frame);
@@ -132,8 +133,8 @@ TEST(Plan, SharesOutTheWholeTolerance) {
       EXPECT_GE(shares.phi, 0);
       EXPECT_GE(shares.early_stop, 0);
       EXPECT_GE(shares.slabs, 0);
-      // Tolerance 0 shares out what it promises instead.
-      const double promise = tolerance > 0 ? tolerance : extended_tolerance;
+      // Tolerances below what tolerance 0 promises share that out instead.
+      const double promise = std::max(tolerance, extended_tolerance);
       EXPECT_EQ(shares.promise, promise);
       EXPECT_NEAR(shares.truncation + shares.coarse_grids + shares.pixel_mean + shares.phi +
                       shares.early_stop + shares.slabs,

@@ -234,6 +234,7 @@ def test_files_are_replaced_only_when_that_is_said(view, snapshot, tmp_path):
     assert "[camera]" in kept.read_text()
     assert "error" in save("scene.txt", False)
     assert "error" in save("nowhere/scene.toml", False)
+    assert "filesystem" not in save("x" * 300 + ".toml", False)["error"]
     linked = tmp_path / "snapshot.png"
     linked.symlink_to(snapshot)
     before = snapshot.read_bytes()
@@ -265,6 +266,16 @@ def test_ctrl_c_ends_it_with_a_page_open(view):
     page = PageSocket(opened)
     page.receive()
     assert opened.end() == (0, "")
+
+
+def test_ctrl_c_again_and_again_is_no_other_end(view):
+    opened = view()
+    PageSocket(opened).receive()
+    deadline = time.monotonic() + PATIENCE
+    while opened.process.poll() is None and time.monotonic() < deadline:
+        opened.process.send_signal(signal.SIGINT)
+        time.sleep(0.001)
+    assert opened.process.returncode == 0
 
 
 def test_a_page_makes_the_program_read_no_file_through_a_keyframe(view):

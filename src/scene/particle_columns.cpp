@@ -1,0 +1,229 @@
+#include "scene/particle_columns.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "splotchcl/particles.h"
+
+namespace splotchcl {
+namespace {
+
+class FunctionColumn final : public ColumnSource {
+ public:
+  FunctionColumn(std::size_t size, MakeValues make) : size_(size), make_(std::move(make)) {}
+  std::size_t size() const override { return size_; }
+  bool is_streamed() const override { return true; }
+  void make(std::size_t begin, std::size_t end, float* values) const override {
+    make_(begin, end, values);
+  }
+
+ private:
+  std::size_t size_;
+  MakeValues make_;
+};
+
+}  // namespace
+
+ColumnStretch::ColumnStretch(const Column& column, std::size_t begin, std::size_t end)
+    : begin_(begin) {
+  if (!column.is_array()) {
+    same_ = column[0];
+  } else if (const auto source = column.source(); source && source->is_streamed()) {
+    made_.resize(end - begin);
+    source->make(begin, end, made_.data());
+    values_ = made_.data();
+  } else {
+    values_ = column.data() + begin;
+  }
+}
+
+bool is_streamed(const Column& column) {
+  const auto source = column.source();
+  return source && source->is_streamed();
+}
+
+bool has_streamed_column(const Particles& particles) {
+  const auto columns = particles.columns();
+  return std::any_of(columns.begin(), columns.end(),
+                     [](const Column* column) { return is_streamed(*column); });
+}
+
+Column make_column(std::size_t size, bool is_streamed, MakeValues make) {
+  if (is_streamed) return Column::made_by(std::make_shared<FunctionColumn>(size, std::move(make)));
+  std::vector<float> values(size);
+  make(0, size, values.data());
+  return Column::owning(std::move(values));
+}
+
+Column make_vectors(const Column& vectors, bool is_streamed,
+                    const std::function<void(const double* from, double* to)>& make) {
+  // Sources are asked for whole vectors and for single values.
+  const auto make_values = [=](std::size_t begin, std::size_t end, float* out) {
+    const std::size_t first = begin / 3 * 3, last = (end + 2) / 3 * 3;
+    const ColumnStretch stretch(vectors, first, last);
+    for (std::size_t i = first; i < last; i += 3) {
+      const double from[3] = {static_cast<double>(stretch[i]), static_cast<double>(stretch[i + 1]),
+                              static_cast<double>(stretch[i + 2])};
+      double to[3];
+      make(from, to);
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (i + k >= begin && i + k < end) *out++ = static_cast<float>(to[k]);
+      }
+    }
+  };
+  return make_column(vectors.size(), is_streamed, make_values);
+}
+
+Column gather_in_order(const Column& column, std::size_t width, std::size_t count,
+                       const std::function<std::size_t(std::size_t)>& place) {
+  std::vector<float> values(count * width);
+  float* out = values.data();
+  const std::size_t behind = count == 0 ? 0 : place(count - 1) + 1;
+  std::size_t next = 0;
+  while (next < count) {
+    const std::size_t first = place(next);
+    const std::size_t end = std::min(behind, first + streamed_particles);
+    const ColumnStretch stretch(column, first * width, end * width);
+    for (; next < count; ++next) {
+      const std::size_t at = place(next);
+      if (at >= end) break;
+      for (std::size_t k = 0; k < width; ++k)
+        *out++ = stretch[at * width + k];
+    }
+  }
+  return Column::owning(std::move(values));
+}
+
+namespace {
+
+bool is_same(const Column& a, const Column& b) {
+  if (a.source() || b.source()) return a.source() == b.source();
+  if (a.is_array() || b.is_array()) return a.data() == b.data() && a.size() == b.size();
+  return a.is_uniform() == b.is_uniform() && a.uniform_value() == b.uniform_value();
+}
+
+}  // namespace
+
+bool have_same_columns(const Particles& known, const Particles& particles) {
+  const auto first = known.columns(), second = particles.columns();
+  return known.count == particles.count &&
+         std::equal(first.begin(), first.end(), second.begin(),
+                    [](const Column* a, const Column* b) { return is_same(*a, *b); });
+}
+
+namespace {
+
+Column picked(const Column& column, std::size_t width, const std::vector<std::uint64_t>& places) {
+  if (!column.is_array() || column.size() == 0) return column;
+  const auto source = column.source();
+  std::vector<float> values(width * places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::size_t first = width * static_cast<std::size_t>(places[k]);
+    float* const to = values.data() + width * k;
+    if (source) {
+      source->make(first, first + width, to);
+    } else {
+      std::copy_n(column.data() + first, width, to);
+    }
+  }
+  return Column::owning(std::move(values));
+}
+
+}  // namespace
+
+Particles picked_particles(const Particles& particles, const std::vector<std::uint64_t>& places) {
+  Particles some = particles;
+  some.count = places.size();
+  some.boxes = nullptr;
+  for (Column* const column : {&some.position, &some.color_vector})
+    *column = picked(*column, 3, places);
+  for (Column* const column :
+       {&some.smoothing_length, &some.weight, &some.color, &some.intensity, &some.sort_field})
+    *column = picked(*column, 1, places);
+  return some;
+}
+
+namespace {
+
+// The values of a column that are made at most once, and what makes them.
+class MadeOnce {
+ public:
+  explicit MadeOnce(std::shared_ptr<const ColumnSource> source) : source_(std::move(source)) {}
+
+  const std::shared_ptr<const ColumnSource>& source() const { return source_; }
+  const float* data() const {
+    std::call_once(once_, [this] {
+      values_ = source_->make_all();
+      made_ = values_.data();
+    });
+    return made_;
+  }
+  float value(std::size_t i) const {
+    if (const float* const values = made_) return values[i];
+    // A sample is cheaper value by value.
+    const bool are_few = source_->is_streamed() ||
+                         asked_.fetch_add(1, std::memory_order_relaxed) < source_->size() / 16;
+    if (!are_few) return data()[i];
+    float value = 0;
+    source_->make(i, i + 1, &value);
+    return value;
+  }
+
+ private:
+  std::shared_ptr<const ColumnSource> source_;
+  mutable std::once_flag once_;
+  mutable std::vector<float> values_;
+  mutable std::atomic<const float*> made_{nullptr};
+  mutable std::atomic<std::size_t> asked_{0};
+};
+
+}  // namespace
+
+std::vector<float> ColumnSource::make_all() const {
+  std::vector<float> values(size());
+  make(0, values.size(), values.data());
+  return values;
+}
+
+Column Column::made_by(std::shared_ptr<const ColumnSource> source) {
+  Column column;
+  column.size_ = source->size();
+  column.owner_ = std::make_shared<const MadeOnce>(std::move(source));
+  column.is_array_ = true;
+  column.is_made_ = true;
+  return column;
+}
+
+const float* Column::made() const {
+  return static_cast<const MadeOnce*>(owner_.get())->data();
+}
+
+float Column::made(std::size_t i) const {
+  return static_cast<const MadeOnce*>(owner_.get())->value(i);
+}
+
+std::shared_ptr<const ColumnSource> Column::source() const {
+  if (!is_made_) return nullptr;
+  return static_cast<const MadeOnce*>(owner_.get())->source();
+}
+
+ParticleBox ParticleBoxes::around(std::size_t first, std::size_t end) const {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  ParticleBox all = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}, 0};
+  for (std::size_t b = first / block_particles; b * block_particles < end; ++b) {
+    const ParticleBox& box = boxes.at(b);
+    for (int axis = 0; axis < 3; ++axis) {
+      all.lower[axis] = std::min(all.lower[axis], box.lower[axis]);
+      all.upper[axis] = std::max(all.upper[axis], box.upper[axis]);
+    }
+    all.largest_smoothing_length =
+        std::max(all.largest_smoothing_length, box.largest_smoothing_length);
+  }
+  return all;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,117 @@
+#include "view/requests/page_requests.h"
+
+#include <sys/random.h>
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "splotchcl/error.h"
+#include "splotchcl_embedded/view_page.h"
+
+namespace splotchcl::view {
+namespace {
+
+constexpr std::size_t token_bytes = 16;
+
+// "name:port" without its port; "[::1]:80" is "[::1]".
+std::string_view name_of(std::string_view host) {
+  const std::size_t colon = host.rfind(':');
+  const std::size_t bracket = host.rfind(']');
+  if (colon == std::string_view::npos) return host;
+  if (bracket != std::string_view::npos && bracket > colon) return host;
+  return host.substr(0, colon);
+}
+
+bool is_any_address(std::string_view address) {
+  return address == "0.0.0.0" || address == "::";
+}
+
+// An address in numbers, which no other page can make lead here.
+bool is_number_of_address(std::string_view name) {
+  if (name.size() > 2 && name.front() == '[' && name.back() == ']') return true;
+  return !name.empty() && name.find_first_not_of("0123456789.") == std::string_view::npos;
+}
+
+// Takes as long wherever they differ, so that its time tells nothing.
+bool are_equal(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    difference |= static_cast<unsigned>(a[i] ^ b[i]) & 0xffu;
+  return difference == 0;
+}
+
+}  // namespace
+
+std::string make_token() {
+  std::array<unsigned char, token_bytes> bytes;
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+    throw DataError("view: the system gave no random numbers, expected a token of 16 bytes");
+  }
+  constexpr const char* digits = "0123456789abcdef";
+  std::string token;
+  for (const unsigned char byte : bytes) {
+    token += digits[byte >> 4];
+    token += digits[byte & 15];
+  }
+  return token;
+}
+
+AccessRules::AccessRules(std::string token, std::string address)
+    : token_(std::move(token)), address_(std::move(address)) {}
+
+std::string_view AccessRules::check_request(const RequestSource& source) const {
+  check_host(source.host);
+  if (!source.origin.empty() && source.origin != "http://" + std::string(source.host)) {
+    throw AccessDenied{"the Origin is another page's"};
+  }
+  return check_token(source.target);
+}
+
+std::string_view AccessRules::check_socket(const RequestSource& source) const {
+  if (source.origin.empty()) throw AccessDenied{"a socket needs an Origin"};
+  return check_request(source);
+}
+
+void AccessRules::check_host(std::string_view host) const {
+  const std::string_view name = name_of(host);
+  const bool is_known = name == "127.0.0.1" || name == "localhost" || name == "[::1]" ||
+                        name == address_ || name == "[" + address_ + "]" ||
+                        (is_any_address(address_) && is_number_of_address(name));
+  if (name.empty() || !is_known) throw AccessDenied{"the Host is not this server's"};
+}
+
+std::string_view AccessRules::check_token(std::string_view target) const {
+  const std::string_view path = target.substr(0, target.find('?'));
+  const bool has_slash = !path.empty() && path.front() == '/';
+  const std::string_view rest = has_slash ? path.substr(1) : std::string_view();
+  const std::size_t end = rest.find('/');
+  if (end == std::string_view::npos || !are_equal(rest.substr(0, end), token_)) {
+    throw AccessDenied{
+        "the address has no token, or a wrong one; take the one the program printed"};
+  }
+  return rest.substr(end + 1);
+}
+
+namespace {
+
+std::string_view type_of(std::string_view name) {
+  const std::string_view ending = name.substr(name.rfind('.') + 1);
+  if (ending == "html") return "text/html; charset=utf-8";
+  if (ending == "css") return "text/css; charset=utf-8";
+  if (ending == "svg") return "image/svg+xml";
+  return "text/javascript; charset=utf-8";
+}
+
+}  // namespace
+
+std::optional<PageFile> find_page_file(std::string_view name) {
+  if (name.empty()) name = "index.html";
+  for (const embedded::TextFile& file : embedded::view_page()) {
+    if (file.name == name) return PageFile{file.text, type_of(name)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace splotchcl::view

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "scene_file/keys.h"
+#include "splotchcl/error.h"
+#include "splotchcl/scene_file.h"
+
+namespace splotchcl::test {
+
+inline bool same(const Vec3& a, const Vec3& b) {
+  return a.a[0] == b.a[0] && a.a[1] == b.a[1] && a.a[2] == b.a[2];
+}
+
+// Key by key, so that a failure says which.
+inline void expect_same(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.camera.has_value(), b.camera.has_value());
+  EXPECT_EQ(a.stereo.has_value(), b.stereo.has_value());
+  ASSERT_EQ(a.components.size(), b.components.size());
+  for (const scene_file::Key& key : scene_file::all_keys()) {
+    const bool is_of_components = key.path.find("component.") == 0;
+    for (std::size_t i = 0; i < (is_of_components ? a.components.size() : 1); ++i)
+      EXPECT_EQ(key.get(a, i), key.get(b, i)) << key.path << " of component " << i;
+  }
+}
+
+// What a user is told about this text and these settings.
+inline std::string message_for(const std::string& text,
+                               const std::vector<std::string>& settings = {}) {
+  try {
+    parse_scene(text, "scene.toml", settings);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+}  // namespace splotchcl::test
