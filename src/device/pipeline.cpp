@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "device/ranks/cloud_packets.h"
-#include "device/stages/carry_splats.h"
+#include "device/ranks/splat_packets.h"
 #include "device/stages/project_parameters.h"
 #include "device/walk/leaf_sums.h"
 #include "ranks/exchange.h"

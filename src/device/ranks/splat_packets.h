@@ -7,6 +7,7 @@
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
 #include "splotchcl/communicator.h"
+#include "surroundings/cloud_around.h"
 
 namespace splotchcl {
 
@@ -36,5 +37,8 @@ std::uint64_t splats_in(const Communicator::Bytes& packet);
 // Writes them and their keys from slot `slot` on.
 void unpack(const StageContext& context, const Communicator::Bytes& packet,
             const KeyedSplats& keyed, std::uint64_t slot);
+
+// Collective: the clouds of all ranks, those of the first one first; known to all.
+std::vector<CloudAround> gather_clouds(Communicator& ranks, const std::vector<CloudAround>& own);
 
 }  // namespace splotchcl

@@ -1,14 +1,17 @@
 #include "device/stages/projector.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
-#include "device/frame/block_counts.h"
 #include "device/frame/column_arguments.h"
+#include "device/frame/records.h"
+#include "device/frame/shared.h"
 #include "device/frame/view_bounds.h"
 #include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
-#include "device/stages/projector_targets.h"
 #include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "splotchcl/error.h"
@@ -17,6 +20,56 @@ namespace splotchcl {
 namespace {
 
 static_assert(width_octaves == WIDTH_OCTAVES);
+
+// What follows from the counts of blocks that were projected.
+
+ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
+  ParticleCounts sum;
+  for (const shared::BlockCounts& block : blocks) {
+    sum.visible += block.visible;
+    sum.bad += block.bad;
+    sum.too_sharp += block.too_sharp;
+    sum.around += block.around;
+  }
+  return sum;
+}
+
+// Which of a chunk's blocks have particles around the camera.
+std::vector<std::uint32_t> blocks_around(const shared::BlockCounts* first, std::size_t count) {
+  std::vector<std::uint32_t> blocks;
+  for (std::uint32_t b = 0; b < count; ++b) {
+    if (first[b].around > 0) blocks.push_back(b);
+  }
+  return blocks;
+}
+
+// Of blocks whose particles have a slot each, and of what follows the last.
+std::vector<std::uint32_t> first_slots(std::uint32_t blocks, std::uint32_t stride) {
+  std::vector<std::uint32_t> first(std::size_t{blocks} + 1);
+  for (std::uint32_t b = 0; b <= blocks; ++b)
+    first[b] = b * stride;
+  return first;
+}
+
+// Of the same without gaps between the splats, and how many these are.
+std::vector<std::uint32_t> first_splats(const std::vector<shared::BlockCounts>& blocks) {
+  std::vector<std::uint32_t> first = {0};
+  for (const shared::BlockCounts& block : blocks)
+    first.push_back(first.back() + block.visible);
+  return first;
+}
+
+// The first `wanted` slots that their blocks' splats leave. Particles around the camera leave as
+// many as they are.
+std::vector<std::uint32_t> free_slots(const std::vector<shared::BlockCounts>& blocks,
+                                      std::uint32_t stride, std::uint64_t wanted) {
+  std::vector<std::uint32_t> slots;
+  for (std::uint32_t b = 0; b < blocks.size(); ++b) {
+    for (std::uint32_t k = blocks[b].visible; k < stride && slots.size() < wanted; ++k)
+      slots.push_back(b * stride + k);
+  }
+  return slots;
+}
 
 std::uint32_t count_left_out(const std::vector<std::uint32_t>& blocks) {
   return static_cast<std::uint32_t>(
@@ -38,6 +91,31 @@ void check_blocks_of_groups(const DeviceTraits& traits) {
 }
 
 }  // namespace
+
+// Where a launch that counts keys writes.
+struct Projector::KeyTargets {
+  const Buffer<std::uint32_t>& counts;
+  const Buffer<shared::KeyBins>& bins;  // of each block
+};
+
+// Where a launch writes.
+struct Projector::Targets {
+  const Buffer<std::uint32_t>& offsets;  // read: of each block's first splat
+  const Buffer<shared::BlockCounts>& counts;
+  const SplatMemory& splats;
+  const Buffer<std::uint32_t>& keys;
+  const Buffer<std::uint16_t>& key_ends;
+  // Of splats that are binned as they come.
+  const SplatBlocks* blocks = nullptr;
+  const KeyTargets* key_counts = nullptr;  // where keys are counted
+};
+
+// Of a launch for each component.
+struct Projector::AllParticles {
+  std::vector<shared::ProjectParameters> components;
+  std::vector<std::vector<std::uint32_t>> left_out;
+  std::uint32_t blocks = 0, blocks_left_out = 0;
+};
 
 Projector::Projector(const StageContext& context)
     : context_(context),
