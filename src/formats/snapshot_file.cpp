@@ -87,8 +87,18 @@ void check_positions(const SnapshotInfo& info) {
   }
 }
 
+// The format of the file that a path is of, or leads into.
+const SnapshotFormat* find_format_of(const fs::path& path) {
+  const auto within = path_in_file(path);
+  if (!within) return find_format(path);
+  const SnapshotFormat* const format = find_format(within->file);
+  if (format != nullptr && format->has_groups()) return format;
+  throw DataError(fmt::format("{}: {} is a file without groups; give the path of a snapshot",
+                              path.string(), within->file.string()));
+}
+
 std::unique_ptr<Snapshot> open_file(const fs::path& path, const SnapshotOptions& options) {
-  const SnapshotFormat* const format = find_format(path);
+  const SnapshotFormat* const format = find_format_of(path);
   if (format != nullptr) {
     auto snapshot = format->open(path, options);
     if (!options.columns.empty() && !format->has_columns()) {
@@ -186,7 +196,8 @@ const SnapshotFormat* find_format(const fs::path& path) {
 
 std::unique_ptr<Snapshot> open_snapshot(const fs::path& path, const SnapshotOptions& options) try {
   if (fs::is_directory(path)) return open_folder(path, options);
-  return open_file(fs::exists(path) ? path : find_by_base_name(path), options);
+  const bool is_there = fs::exists(path) || path_in_file(path);
+  return open_file(is_there ? path : find_by_base_name(path), options);
 } catch (const fs::filesystem_error& error) {
   throw DataError(fmt::format("{}: cannot be read: {}; check the path and its permissions",
                               path.string(), error.code().message()));

@@ -30,6 +30,9 @@ class SnapshotFormat {
   // beside it. Damaged files are not.
   virtual bool is_map(const std::filesystem::path&) const { return false; }
 
+  // Whether a path may go on within the file, FILE/GROUP; open() then takes such a path.
+  virtual bool has_groups() const { return false; }
+
   // Whether SnapshotOptions::columns means something for it.
   virtual bool has_columns() const { return false; }
 };

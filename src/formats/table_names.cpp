@@ -8,7 +8,7 @@
 namespace splotchcl {
 namespace {
 
-std::string trimmed(const std::string& text, const char* what = " \t_.-") {
+std::string without_joints(const std::string& text, const char* what = " \t_.-") {
   const std::size_t first = text.find_first_not_of(what);
   if (first == std::string::npos) return {};
   return text.substr(first, text.find_last_not_of(what) - first + 1);
@@ -27,16 +27,16 @@ NameAndUnit split_unit(const std::string& text) {
   for (const char* brackets : {"[]", "()"}) {
     const std::size_t open = text.find(brackets[0]);
     if (open == std::string::npos || open == 0 || text.back() != brackets[1]) continue;
-    const std::string name = trimmed(text.substr(0, open), " \t");
+    const std::string name = without_joints(text.substr(0, open), " \t");
     if (name.empty()) continue;
-    return {name, trimmed(text.substr(open + 1, text.size() - open - 2), " \t")};
+    return {name, without_joints(text.substr(open + 1, text.size() - open - 2), " \t")};
   }
   return {text, ""};
 }
 
 std::string vector_name(const std::string& column) {
   if (column.empty() || (column.back() != 'x' && column.back() != 'X')) return {};
-  const std::string stem = trimmed(column.substr(0, column.size() - 1));
+  const std::string stem = without_joints(column.substr(0, column.size() - 1));
   if (stem.empty()) return "position";
   if (equal_ignoring_case(stem, "v")) return "velocity";
   if (equal_ignoring_case(stem, "a")) return "acceleration";

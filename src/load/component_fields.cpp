@@ -109,6 +109,12 @@ void ComponentFields::check(const SortOrder& sort) const {
     check_selection(component_, type, snapshot_.own_part());
     const std::string catalog = tell_found_catalog(component_, type, snapshot_.own_part());
     if (!catalog.empty()) note(catalog);
+    if (const FieldInfo* const wind = find_wind(component_, type.info())) {
+      note(
+          fmt::format("wind among the stars ({0} not above 0) is left out; a condition on it, as "
+                      "select.where = \"{0} <= 0\", has it",
+                      wind->file_name));
+    }
     if (!component_.color_vector.empty()) {
       type.check_vectors(component_.color_vector, "color.vector");
     }

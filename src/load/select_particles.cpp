@@ -30,6 +30,7 @@ Ids read_wanted_ids(const std::string& file) {
   if (!is_array) return read_id_list(file);
   Ids ids = read_numpy_integers(file);
   if (ids.empty()) throw DataError(file + ": found no identifier, expected some");
+  refuse_mask(ids, file);
   std::sort(ids.begin(), ids.end());
   return ids;
 }
@@ -37,6 +38,10 @@ Ids read_wanted_ids(const std::string& file) {
 const Ids& wanted_ids(const Snapshot& snapshot, const std::string& file) {
   return snapshot.memory().get_for_all_times<Ids>("ids " + file,
                                                   [&file] { return read_wanted_ids(file); });
+}
+
+bool is_of_ids(const Comparison& comparison) {
+  return canonical_field_name(comparison.field) == "id";
 }
 
 // Where a halo's particles are looked up: in a catalog, or in the field that has the number of
@@ -96,16 +101,28 @@ class Membership {
     for (const Conjunction& conjunction : *condition) {
       std::vector<bool> all(is_member_.size(), true);
       for (const Comparison& comparison : conjunction) {
-        const Column values = fields_.scalars(comparison.field, key);
-        for (std::size_t i = 0; i < all.size(); ++i) {
-          if (all[i]) all[i] = comparison.holds(static_cast<double>(values[run_.begin + i]));
-        }
+        keep_compared(comparison, key, all);
       }
       for (std::size_t i = 0; i < all.size(); ++i) {
         if (all[i]) any[i] = true;
       }
     }
     keep_if([&](std::size_t i) { return any[i - run_.begin]; });
+  }
+
+  // Those of a run for which a comparison holds. Single precision does not tell ids apart.
+  void keep_compared(const Comparison& comparison, const std::string& key,
+                     std::vector<bool>& all) const {
+    if (is_of_ids(comparison)) {
+      const Ids own = fields_.ids();
+      for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = all[i] && comparison.holds_for_id(own[run_.begin + i]);
+      return;
+    }
+    const Column values = fields_.scalars(comparison.field, key);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i]) all[i] = comparison.holds(static_cast<double>(values[run_.begin + i]));
+    }
   }
 
   void keep_box(const Vec3& minimum, const Vec3& maximum) {
@@ -189,6 +206,25 @@ class Membership {
   std::vector<bool> is_member_;
 };
 
+// Wind has a time of formation below 0 until it joins the gas again.
+ParticleSet stars_by(const FieldInfo& time_of_formation) {
+  ParticleSet stars;
+  stars.where = {time_of_formation.file_name + " > 0"};
+  return stars;
+}
+
+bool has_condition_on(const ParticleSet& set, const FieldInfo& field,
+                      const ParticleTypeInfo& type) {
+  for (const std::string& text : set.where) {
+    for (const Conjunction& conjunction : parse_condition(text).value_or(Condition())) {
+      for (const Comparison& comparison : conjunction) {
+        if (find_field(type, comparison.field) == &field) return true;
+      }
+    }
+  }
+  return false;
+}
+
 void find_indices(const Component& component, const TypeFields& fields, const Snapshot& snapshot,
                   const std::optional<BoxSides>& periodic_box, const ParticleRun& run,
                   ParticleIndices& indices) {
@@ -196,6 +232,8 @@ void find_indices(const Component& component, const TypeFields& fields, const Sn
   selected.keep(component.select, "select");
   Membership excluded(fields, snapshot, periodic_box, run);
   if (component.exclude.is_given()) excluded.keep(component.exclude, "exclude");
+  if (const FieldInfo* const wind = find_wind(component, fields.info()))
+    selected.keep(stars_by(*wind), "select");
   for (std::size_t i = run.begin; i < run.end; ++i) {
     const bool is_left_out = component.exclude.is_given() && excluded.has(i);
     if (selected.has(i) && !is_left_out) indices.push_back(i);
@@ -219,15 +257,23 @@ std::string text_of(const ParticleSet& set) {
                      set.sphere_radius ? fmt::format("{}", *set.sphere_radius) : "-");
 }
 
+void check_ids(const TypeFields& fields, const Snapshot& snapshot) {
+  if (find_field(fields.info(), "id") == nullptr) snapshot.read_ids(fields.info().type);
+}
+
 void check_comparison(const Comparison& comparison, const std::string& text, const std::string& key,
-                      const TypeFields& fields) {
-  if (canonical_field_name(comparison.field) == "id") {
-    throw UsageError(fmt::format(
-        "component with {}.where \"{}\": found a condition on ids, which may be too long for "
-        "a number, expected {}.ids, a file that lists them",
-        key, text, key));
+                      const TypeFields& fields, const Snapshot& snapshot) {
+  if (!is_of_ids(comparison)) {
+    fields.check_scalars(comparison.field, key + ".where");
+  } else if (comparison.whole) {
+    check_ids(fields, snapshot);
+  } else {
+    throw UsageError(
+        fmt::format("component with {}.where \"{}\": found ids compared with {}, expected a whole "
+                    "number from 0 "
+                    "to 2^64 - 1",
+                    key, text, comparison.number));
   }
-  fields.check_scalars(comparison.field, key + ".where");
 }
 
 void check_set(const ParticleSet& set, const std::string& key, const TypeFields& fields,
@@ -235,13 +281,13 @@ void check_set(const ParticleSet& set, const std::string& key, const TypeFields&
   for (const std::string& text : set.where) {
     for (const Conjunction& conjunction : parse_condition(text).value_or(Condition())) {
       for (const Comparison& comparison : conjunction)
-        check_comparison(comparison, text, key, fields);
+        check_comparison(comparison, text, key, fields, snapshot);
     }
   }
   if (set.halo) catalog_of(set, key, fields, snapshot);
   if (set.id_file.empty()) return;
   wanted_ids(snapshot, set.id_file);
-  if (find_field(fields.info(), "id") == nullptr) snapshot.read_ids(fields.info().type);
+  check_ids(fields, snapshot);
 }
 
 }  // namespace
@@ -249,7 +295,9 @@ void check_set(const ParticleSet& set, const std::string& key, const TypeFields&
 std::shared_ptr<const ParticleIndices> select_particles(
     const Component& component, const TypeFields& fields, const Snapshot& snapshot,
     const std::optional<BoxSides>& periodic_box) {
-  if (!component.select.is_given() && !component.exclude.is_given()) return nullptr;
+  const bool selects = component.select.is_given() || component.exclude.is_given() ||
+                       find_wind(component, fields.info()) != nullptr;
+  if (!selects) return nullptr;
   using Selected = std::shared_ptr<const ParticleIndices>;
   return snapshot.memory().get<Selected>(
       fmt::format("type {}: {}", fields.info().type, selection_key(component, periodic_box)),
@@ -276,6 +324,18 @@ std::string tell_found_catalog(const Component& component, const TypeFields& fie
     if (catalog) return fmt::format("halo {} is looked up in {}", *set->halo, catalog->string());
   }
   return {};
+}
+
+const FieldInfo* find_wind(const Component& component, const ParticleTypeInfo& type) {
+  constexpr int stars = 4;
+  if (type.type != stars) return nullptr;
+  for (const FieldInfo& field : type.fields) {
+    if (field.file_name != "GFM_StellarFormationTime") continue;
+    const bool is_named = has_condition_on(component.select, field, type) ||
+                          has_condition_on(component.exclude, field, type);
+    return is_named ? nullptr : &field;
+  }
+  return nullptr;
 }
 
 std::string selection_key(const Component& component, const std::optional<BoxSides>& periodic_box) {

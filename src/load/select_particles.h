@@ -30,6 +30,10 @@ void check_selection(const Component& component, const TypeFields& fields,
 std::string tell_found_catalog(const Component& component, const TypeFields& fields,
                                const Snapshot& snapshot);
 
+// The field that tells wind from stars where these particles of IllustrisTNG hold both; null where
+// they do not, or where the component has a condition of its own on it.
+const FieldInfo* find_wind(const Component& component, const ParticleTypeInfo& type);
+
 // The text that stands for the component's selection where it is remembered.
 std::string selection_key(const Component& component, const std::optional<BoxSides>& periodic_box);
 

@@ -24,17 +24,28 @@
 namespace splotchcl {
 namespace {
 
-bool all_are_sizes(const Column& column, const ParticlePass& pass) {
-  const auto find_others = [&](const ParticleRun& run, std::vector<std::size_t>& others) {
+// Whether a value of the column is wanted.
+template <class IsWanted>
+bool has_value(const Column& column, const ParticlePass& pass, const IsWanted& is_wanted) {
+  const auto find_one = [&](const ParticleRun& run, std::vector<std::size_t>& found) {
     for_stretches(run, [&](std::size_t begin, std::size_t end) {
-      if (!others.empty()) return;
+      if (!found.empty()) return;
       const ColumnStretch stretch(column, begin, end);
-      for (std::size_t i = begin; i < end && others.empty(); ++i) {
-        if (!is_smoothing_length(stretch[i])) others.push_back(i);
+      for (std::size_t i = begin; i < end && found.empty(); ++i) {
+        if (is_wanted(stretch[i])) found.push_back(i);
       }
     });
   };
-  return pass.collect<std::size_t>(find_others).empty();
+  return !pass.collect<std::size_t>(find_one).empty();
+}
+
+bool all_are_sizes(const Column& column, const ParticlePass& pass) {
+  return !has_value(column, pass, [](float h) { return !is_smoothing_length(h); });
+}
+
+// As codes may write that do without. The first value tells nearly always that they do not.
+bool are_all_zero(const Column& column, const ParticlePass& pass) {
+  return !has_value(column, pass, [](float h) { return h != 0; });
 }
 
 }  // namespace
@@ -169,7 +180,11 @@ Column TypeFields::densities() const {
 
 Column TypeFields::smoothing_lengths() const {
   if (find_field(*type_, "smoothing_length") != nullptr) {
-    return snapshot_->read(type_->type, "smoothing_length");
+    const Column own = snapshot_->read(type_->type, "smoothing_length");
+    // Ranks that have parts of their own would have to agree.
+    if (snapshot_->spread() || !are_all_zero(own, pass_over(*snapshot_, type_->type))) return own;
+    say(fmt::format("the smoothing lengths of type {} in the file are all 0: they do not count",
+                    type_->type));
   }
   return remembered(fmt::format("smoothing_length {}", sizes_.neighbors),
                     [this] { return find_lengths(); });

@@ -23,7 +23,7 @@ void InputFiles::add(const Snapshot& snapshot) {
 void InputFiles::add_snapshots(const Scene& scene) {
   if (scene.time.is_set()) {
     for (const ListedSnapshot& snapshot : list_snapshots(scene.time))
-      named_.insert(snapshot.path);
+      add(path_in_file(snapshot.path).value_or(PathInFile{snapshot.path, ""}).file);
   } else {
     add(*open_snapshot_for(scene.snapshot, scene.read));
   }

@@ -51,34 +51,22 @@ std::vector<std::string> split_at(const std::string& text, const std::string& wo
   }
 }
 
-std::optional<Comparison> parse_comparison(const std::string& text) {
-  const std::size_t place = text.find_first_of(operator_characters);
-  if (place == std::string::npos) return std::nullopt;
-  Comparison comparison;
-  comparison.field = trimmed(text.substr(0, place));
-  if (comparison.field.empty() || begins_with_joint(comparison.field)) return std::nullopt;
-  for (const auto& [symbol, op] : operators) {
-    const std::string spelled = symbol;
-    if (text.compare(place, spelled.size(), spelled) != 0) continue;
-    const auto number = parse_number(trimmed(text.substr(place + spelled.size())));
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    comparison.op = op;
-    comparison.number = *number;
-    return comparison;
-  }
-  return std::nullopt;
+// A whole number from 0 to 2^64 - 1, exact. One with a point or an exponent, as far as double
+// precision has all whole numbers; else nothing.
+std::optional<std::uint64_t> whole_number(const std::string& text) {
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error == std::errc() && rest == end) return number;
+  if (text.find_first_of(".eE") == std::string::npos) return std::nullopt;
+  constexpr double largest = 9007199254740992.0;
+  const auto real = parse_number(text);
+  const bool is_whole = real && *real >= 0 && *real < largest && *real == std::floor(*real);
+  return is_whole ? std::optional(static_cast<std::uint64_t>(*real)) : std::nullopt;
 }
 
-}  // namespace
-
-const char* const condition_form =
-    "a condition such as \"temperature > 1e6\" or \"density >= 3 and mass < 1\" (or with or), or "
-    "an "
-    "array of "
-    "conditions that all must hold, each with <, <=, >, >=, == or != between a field and a number";
-
-bool Comparison::holds(double value) const {
-  if (std::isnan(value)) return false;
+template <typename Number>
+bool compare(Operator op, Number value, Number number) {
   switch (op) {
     case Operator::less:
       return value < number;
@@ -94,6 +82,42 @@ bool Comparison::holds(double value) const {
       return value != number;
   }
   return false;
+}
+
+std::optional<Comparison> parse_comparison(const std::string& text) {
+  const std::size_t place = text.find_first_of(operator_characters);
+  if (place == std::string::npos) return std::nullopt;
+  Comparison comparison;
+  comparison.field = trimmed(text.substr(0, place));
+  if (comparison.field.empty() || begins_with_joint(comparison.field)) return std::nullopt;
+  for (const auto& [symbol, op] : operators) {
+    const std::string spelled = symbol;
+    if (text.compare(place, spelled.size(), spelled) != 0) continue;
+    const std::string right = trimmed(text.substr(place + spelled.size()));
+    const auto number = parse_number(right);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    comparison.op = op;
+    comparison.number = *number;
+    comparison.whole = whole_number(right);
+    return comparison;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* const condition_form =
+    "a condition such as \"temperature > 1e6\" or \"density >= 3 and mass < 1\" (or with or), or "
+    "an "
+    "array of "
+    "conditions that all must hold, each with <, <=, >, >=, == or != between a field and a number";
+
+bool Comparison::holds(double value) const {
+  return !std::isnan(value) && compare(op, value, number);
+}
+
+bool Comparison::holds_for_id(std::uint64_t id) const {
+  return whole && compare(op, id, *whole);
 }
 
 std::optional<Condition> parse_condition(const std::string& text) {
@@ -114,18 +138,26 @@ namespace {
 
 std::uint64_t parse_id(const std::string& text, const std::filesystem::path& path,
                        std::size_t line) {
-  std::uint64_t id = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, id);
-  if (error == std::errc() && rest == end) return id;
+  if (const auto id = whole_number(text)) return *id;
   constexpr std::size_t longest = 40;
   throw DataError(fmt::format(
       "{}:{}: found \"{}\"{}, expected one identifier on each line, a whole number "
-      "from 0 to 2^64 - 1",
+      "from 0 to 2^64 - 1 (numpy.savetxt writes them with fmt=\"%d\")",
       path.string(), line, text.substr(0, longest), text.size() > longest ? "..." : ""));
 }
 
 }  // namespace
+
+void refuse_mask(const std::vector<std::uint64_t>& ids, const std::filesystem::path& path) {
+  const auto zeros = std::count(ids.begin(), ids.end(), 0U);
+  const auto ones = std::count(ids.begin(), ids.end(), 1U);
+  const bool is_mask = static_cast<std::size_t>(zeros + ones) == ids.size() && ids.size() > 2;
+  if (!is_mask) return;
+  throw DataError(fmt::format(
+      "{}: found a mask, {} zeros and {} ones, expected the identifiers of the particles that are "
+      "wanted; save ids[mask] instead",
+      path.string(), zeros, ones));
+}
 
 std::vector<std::uint64_t> read_id_list(const std::filesystem::path& path) {
   const auto file = MappedFile::open(path);
@@ -140,6 +172,7 @@ std::vector<std::uint64_t> read_id_list(const std::filesystem::path& path) {
   if (ids.empty()) {
     throw DataError(path.string() + ": found no identifier, expected one on each line");
   }
+  refuse_mask(ids, path);
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;

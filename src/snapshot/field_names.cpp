@@ -20,18 +20,19 @@ struct FieldNames {
 
 const std::vector<FieldNames>& known_fields() {
   static const std::vector<FieldNames> table = {
-      {"position", {"POS", "Coordinates", "Coordinate", "Positions", "coords", "xyz"}},
+      {"position", {"POS", "Coordinates", "Coordinate", "Positions", "coords", "xyz", "Points"}},
       {"velocity", {"VEL", "Velocities", "vxyz"}},
       {"id", {"ParticleIDs", "ParticleID", "ids", "iorder", "iord"}},
       {"halo_id",
        {"FOFGroupIDs", "FOFGroupID", "GroupNr_bound", "GroupNr_all", "GroupNr", "GroupNumber",
         "GroupIDs", "GroupID", "HaloID"}},
-      {"mass", {"Masses", "mass table", "MassTable", "m", "DynamicalMasses"}},
+      {"mass", {"Masses", "mass table", "MassTable", "m", "DynamicalMasses", "particle mass"}},
       {"internal_energy", {"U", "InternalEnergy", "InternalEnergies"}},
       {"density", {"RHO", "Densities", "den"}},
       {"smoothing_length",
-       {"HSML", "SmoothingLength", "SmoothingLengths", "h", "smoothlength", "smooth"}},
-      {"star_smoothing_length", {"HSMS"}},
+       {"HSML", "SmoothingLength", "SmoothingLengths", "KernelMaxRadius", "h", "smoothlength",
+        "smooth"}},
+      {"star_smoothing_length", {"HSMS", "StellarHsml"}},
       {"temperature", {"TEMP", "Temperatures", "T"}},
       {"stellar_age",
        {"AGE", "StellarAge", "StellarFormationTime", "GFM_StellarFormationTime", "tform"}},

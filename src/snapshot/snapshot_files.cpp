@@ -53,6 +53,14 @@ std::optional<MemberName> parse_member_name(const fs::path& path) {
   return member;
 }
 
+std::optional<PathInFile> path_in_file(const fs::path& path) {
+  std::error_code ignored;
+  const bool leads_into_file =
+      path.has_filename() && fs::is_regular_file(path.parent_path(), ignored);
+  if (!leads_into_file) return std::nullopt;
+  return PathInFile{path.parent_path(), path.filename().string()};
+}
+
 std::vector<fs::path> find_members(const fs::path& member, int count) {
   if (count <= 1) return {member};
   const std::optional<MemberName> name = parse_member_name(member);
@@ -74,6 +82,19 @@ std::vector<fs::path> find_members(const fs::path& member, int count) {
     members.push_back(path);
   }
   return members;
+}
+
+std::vector<fs::path> find_siblings(const fs::path& member) {
+  const std::optional<MemberName> name = parse_member_name(member);
+  std::vector<fs::path> siblings;
+  while (name) {
+    const fs::path path =
+        with_suffix(name->base, fmt::format(".{}{}", siblings.size(), name->ending));
+    if (!fs::is_regular_file(path)) break;
+    siblings.push_back(path);
+  }
+  const bool is_one_of_them = name && static_cast<std::size_t>(name->index) < siblings.size();
+  return is_one_of_them ? siblings : std::vector<fs::path>{member};
 }
 
 fs::path find_by_base_name(const fs::path& path) {
@@ -129,6 +150,7 @@ std::vector<fs::path> ExistingFiles::files_of(const fs::path& path) {
 }
 
 bool ExistingFiles::have(const fs::path& path) {
+  if (path_in_file(path)) return true;  // whether it has the group is for its format to say
   const std::set<std::string>& names = names_in(folder_of(path));
   const std::string name = path.filename().string();
   if (name.empty()) return !names.empty();

@@ -23,9 +23,20 @@ struct MemberName {
 };
 std::optional<MemberName> parse_member_name(const std::filesystem::path& path);
 
+// A path that goes on within a file, to one of its groups: steps.h5/Step#3.
+struct PathInFile {
+  std::filesystem::path file;
+  std::string group;
+};
+std::optional<PathInFile> path_in_file(const std::filesystem::path& path);
+
 // The names of the `count` files of the set that `member` belongs to, in order. Throws
 // DataError when the name is not that of a member or when a file is missing.
 std::vector<std::filesystem::path> find_members(const std::filesystem::path& member, int count);
+
+// The files that are there of the set that `member` would belong to by its name, numbered from 0
+// without a gap; itself alone where its name is not that of a member of such a set.
+std::vector<std::filesystem::path> find_siblings(const std::filesystem::path& member);
 
 // The existing file that `path` stands for when it is the base name of a set or lacks
 // its ending. Throws DataError when there is none, or more than one.

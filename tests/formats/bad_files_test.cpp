@@ -155,7 +155,7 @@ TEST_F(BadParticles, AllOfThemAreRefused) {
       written.block("POS").values[0][i] = bad;
     EXPECT_THAT(load(written), HasSubstr("none of its 8 particles can be drawn"));
   }
-  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double bad : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
     TestSnapshot written = gas();
     for (double& h : written.block("HSML").values[0])
       h = bad;

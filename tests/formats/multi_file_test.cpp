@@ -155,6 +155,59 @@ TEST_P(MultiFile, ACompleteFileWhoseHeaderSpeaksOfMoreIsRead) {
   EXPECT_THAT(opened->info().notes, ::testing::Contains(HasSubstr("424242 files")));
 }
 
+// Each of 68 particles in all, says that it is the only file.
+std::vector<TestSnapshot> each_the_only_one(std::vector<TestSnapshot> members) {
+  for (TestSnapshot& part : members)
+    part.files = 1;
+  return members;
+}
+
+TEST_P(MultiFile, FilesThatEachSayToBeTheOnlyOneAreReadTogetherWhereTheyAddUp) {
+  write_set(each_the_only_one(split(snapshot(), 3)));
+  for (const auto& path : {member(0), member(2), base(), set_folder()}) {
+    const auto joined = open_snapshot(path);
+    expect_same_columns(*joined, *open_whole());
+    EXPECT_THAT(joined->info().notes, ::testing::Contains(HasSubstr("each is the only one")));
+  }
+}
+
+TEST_P(MultiFile, FilesThatEachSayToBeTheOnlyOneAreRefusedWhereTheyDoNotAddUp) {
+  write_set(each_the_only_one(split(snapshot(), 3)));
+  std::filesystem::remove(member(2));
+  EXPECT_THAT(refusal(member(0)), AllOf(HasSubstr("headers say 68"), HasSubstr("restore the set"),
+                                        HasSubstr("a name without a number")));
+}
+
+TEST_P(MultiFile, TotalsOfOneFileDoNotHideTheOthersThatItsHeaderSpeaksOf) {
+  auto members = split(snapshot(), 2);
+  for (TestSnapshot& part : members)
+    part.total_counts.assign(part.counts.begin(), part.counts.end());
+  write_set(members);
+  EXPECT_THAT(refusal(member(0)), AllOf(HasSubstr(member(1).string()), HasSubstr("total number")));
+}
+
+TEST_P(MultiFile, FilesOfOtherTimesAreNoPartsOfOneThatCountsTooManyInAll) {
+  auto members = each_the_only_one(split(snapshot(), 2));
+  members[1].time = 0.75;
+  write_set(members);
+  EXPECT_EQ(open_snapshot(member(0))->info().files.size(), 1U);
+}
+
+TEST(LightCone, OfGadget4IsReadFromAllOfItsFiles) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"cone.0.hdf5", "cone.1.hdf5"}) {
+    const Hdf5Output file = create_hdf5(folder / name);
+    make_group(file, "Header");
+    write_attribute(file, "Header", "NumPart_ThisFile", {0, 2});
+    write_attribute(file, "Header", "NumPart_Total", {0, 4});
+    write_attribute(file, "Header", "NumFiles", {2});
+    write_values(file, "PartType1/Coordinates", {1, 2, 3, 4, 5, 6}, 3);
+  }
+  EXPECT_EQ(open_snapshot(folder / "cone.1.hdf5")->info().find_type(1)->count, 4U);
+  std::filesystem::remove(folder / "cone.0.hdf5");
+  EXPECT_THAT(refusal(folder / "cone.1.hdf5"), HasSubstr("cone.0.hdf5: missing"));
+}
+
 TEST(SnapshotFolder, WithSeveralSnapshotsIsRefusedWithTheirNames) {
   const TemporaryFolder folder;
   write_gadget(folder / "snap_001", small_snapshot(), 2);

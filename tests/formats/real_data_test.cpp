@@ -150,8 +150,13 @@ TEST_F(RealSnapshots, AFolderOfFilesWithFewBlocksIsRead) {
 TEST_F(RealSnapshots, BrokenFilesAreRefusedWithWhatIsWrong) {
   EXPECT_THAT(refusal(data_ / "broken/no_positions/snap_144.0.key"),
               HasSubstr("no positions: the file has only INFO, KEY, NKEY, OKEY"));
-  EXPECT_THAT(refusal(data_ / "broken/no_coordinates.hdf5"),
-              HasSubstr("PartType0, which has only InternalEnergy"));
+}
+
+TEST_F(RealSnapshots, ATypeWithoutCoordinatesIsLeftOut) {
+  const auto snapshot = open("broken/no_coordinates.hdf5");
+  EXPECT_EQ(snapshot->info().types.size(), 1U);
+  EXPECT_EQ(snapshot->info().find_type(1)->count, 9261U);
+  EXPECT_THAT(snapshot->info().notes, ::testing::Contains(HasSubstr("PartType0 is left out")));
 }
 
 TEST_F(RealSnapshots, SwiftIsReadWithTheSupportOfItsKernel) {

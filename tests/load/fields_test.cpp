@@ -110,6 +110,18 @@ TEST(Temperature, OfTheFileGoesFirst) {
   EXPECT_THAT(notes_of(colored_by("temperature"), snapshot), IsEmpty());
 }
 
+TEST(SmoothingLengths, ThatAreAllZeroAreFound) {
+  NumberedSnapshot snapshot;
+  std::vector<float> position;
+  for (int i = 0; i < 100; ++i)
+    position.insert(position.end(), {static_cast<float>(i), 0, 0});
+  snapshot.add(0, "position", position, 3);
+  snapshot.add(0, "smoothing_length", std::vector<float>(100, 0));
+  // Of the one at the end of the row, to its 64th neighbour.
+  EXPECT_EQ(load(gas(), snapshot).particles.smoothing_length[0], 64);
+  EXPECT_THAT(notes_of(gas(), snapshot), Contains(HasSubstr("are all 0: they do not count")));
+}
+
 TEST(DerivedFields, AreSpeedRadiusAndTheAxesOfVectors) {
   NumberedSnapshot snapshot = gas_row(3);
   snapshot.set_origin({{100, 0, 3}});

@@ -15,6 +15,7 @@ namespace splotchcl::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -230,8 +231,50 @@ TEST(Components, AreRefusedBeforeAnythingIsRead) {
   }
 }
 
-TEST(Selection, RefusesConditionsOnIds) {
-  EXPECT_THAT(refusal(selecting({"id == 3"}), gas_row()), HasSubstr("select.ids"));
+TEST(Selection, ComparesIdsExactly) {
+  EXPECT_THAT(drawn(selecting({"id > 1152921504606846977"})), ElementsAre(3, 4, 5, 6));
+  EXPECT_THAT(drawn(selecting({"ParticleIDs <= 1152921504606846977"})), ElementsAre(1, 2));
+  EXPECT_THAT(drawn(selecting({"id == 1152921504606846979"})), ElementsAre(4));
+  EXPECT_THAT(drawn(selecting({"id != 1152921504606846979 and mass > 2"})), ElementsAre(3, 5, 6));
+  EXPECT_THAT(drawn(selecting({"id >= 1e9"})), ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST(Selection, RefusesToCompareIdsWithWhatIsNone) {
+  for (const char* text : {"id > -1", "id > 0.5", "id < 1e19", "id < 18446744073709551616"})
+    EXPECT_THAT(refusal(selecting({text}), gas_row()), HasSubstr("expected a whole number"))
+        << text;
+}
+
+// Of six particles of type 4 those of mass 2 and 5 are wind.
+NumberedSnapshot stars_and_wind() {
+  NumberedSnapshot snapshot;
+  std::vector<float> position;
+  for (int i = 0; i < 6; ++i)
+    position.insert(position.end(), {static_cast<float>(i), 0, 0});
+  snapshot.add(4, "position", position, 3);
+  snapshot.add(4, "smoothing_length", {1, 1, 1, 1, 1, 1});
+  snapshot.add(4, "mass", {1, 2, 3, 4, 5, 6});
+  snapshot.add(4, "GFM_StellarFormationTime", {0.25F, -0.5F, 0.5F, 0.75F, 0, 1});
+  return snapshot;
+}
+
+Component of_stars(const std::vector<std::string>& where = {}) {
+  Component component = selecting(where);
+  component.types = {4};
+  return component;
+}
+
+TEST(Wind, IsNotDrawnAmongTheStarsAndSaid) {
+  EXPECT_THAT(drawn(of_stars(), stars_and_wind()), ElementsAre(1, 3, 4, 6));
+  EXPECT_THAT(drawn(of_stars({"mass > 2"}), stars_and_wind()), ElementsAre(3, 4, 6));
+  EXPECT_THAT(notes_of(of_stars(), stars_and_wind()), Contains(HasSubstr("wind among the stars")));
+}
+
+TEST(Wind, IsDrawnByAConditionOnItsTime) {
+  EXPECT_THAT(drawn(of_stars({"GFM_StellarFormationTime <= 0"}), stars_and_wind()),
+              ElementsAre(2, 5));
+  EXPECT_THAT(drawn(of_stars({"GFM_StellarFormationTime < 2"}), stars_and_wind()),
+              ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
 Component of_halo(int number) {
@@ -293,6 +336,26 @@ TEST_F(SelectionByIds, TakesAnArrayOfNumpy) {
       bytes += static_cast<char>(id >> (8 * byte) & 255);
   }
   EXPECT_THAT(drawn(listing(bytes)), ElementsAre(2, 5));
+}
+
+TEST_F(SelectionByIds, RefusesMasks) {
+  std::string header = "{'descr': '|b1', 'fortran_order': False, 'shape': (2,), }";
+  header.resize(117, ' ');
+  std::string bytes = "\x93NUMPY";
+  bytes += {1, 0, 118, 0};
+  bytes += header + "\n";
+  bytes += {0, 1};
+  EXPECT_THAT(refusal(listing(bytes), gas_row()), HasSubstr("save ids[mask]"));
+  EXPECT_THAT(refusal(listing("0\n1\n1\n0\n1\n"), gas_row()),
+              AllOf(HasSubstr("2 zeros and 3 ones"), HasSubstr("save ids[mask]")));
+}
+
+TEST_F(SelectionByIds, TakesWholeNumbersAsSavetxtWritesThem) {
+  NumberedSnapshot snapshot = gas_row();
+  snapshot.number(0, {2000000000, 2000000001, 9007199254740991, 3, 4, 5});
+  EXPECT_THAT(drawn(listing("2.000000001000000000e+09\n9.007199254740991000e+15\n"), snapshot),
+              ElementsAre(2, 3));
+  EXPECT_THAT(refusal(listing("12\n9.007199254740992e+15\n"), gas_row()), HasSubstr("fmt=\"%d\""));
 }
 
 TEST_F(SelectionByIds, RefusesAnArrayOfOtherNumbers) {

@@ -80,6 +80,16 @@ bool is_complete_alone(const GadgetHeader& header) {
          (header.particles() > 0 && header.counts == header.full_total_counts());
 }
 
+bool may_have_siblings(const GadgetHeader& header, std::size_t files_there) {
+  if (header.files > 1) return files_there == static_cast<std::size_t>(header.files);
+  return header.total_counts != header.counts &&
+         sum(header.full_total_counts()) > header.particles();
+}
+
+bool are_of_one_time(const GadgetHeader& a, const GadgetHeader& b) {
+  return a.time == b.time && a.files == b.files && a.counts.size() == b.counts.size();
+}
+
 GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
                            const std::vector<std::filesystem::path>& paths,
                            std::vector<std::string>& notes) {
@@ -98,6 +108,12 @@ GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
     notes.push_back(
         fmt::format("the header speaks of {} files, but this one is complete", merged.files));
   }
+  if (headers.size() > 1 && merged.files <= 1) {
+    notes.push_back(fmt::format(
+        "the headers of {} files beside each other say that each is the only one; they are read "
+        "together, as their particles add up to the total in the headers",
+        headers.size()));
+  }
   const std::vector<std::uint64_t> totals = merged.full_total_counts();
   if (sum(totals) == 0 || totals == merged.counts) return merged;
   if (have_high_words(headers) && merged.total_counts == merged.counts) {
@@ -109,8 +125,9 @@ GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
   if (headers.size() > 1) {
     throw DataError(fmt::format(
         "{}: the {} files together hold {} particles, but their headers say {}; a file may be "
-        "exchanged or damaged: restore the set",
-        paths.front().string(), paths.size(), merged.particles(), sum(totals)));
+        "missing, exchanged or damaged: restore the set{}",
+        paths.front().string(), paths.size(), merged.particles(), sum(totals),
+        merged.files > 1 ? "" : ", or read one file alone under a name without a number"));
   }
   notes.push_back(fmt::format(
       "the header's total number of particles ({}) is not the number in the file ({}); ignored",

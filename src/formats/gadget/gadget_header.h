@@ -48,6 +48,13 @@ void check_header(const GadgetHeader& header, const std::filesystem::path& path)
 // the header's number of files is not always set.
 bool is_complete_alone(const GadgetHeader& header);
 
+// Whether files beside one that is complete alone may belong to it: its header counts more
+// particles in all than it holds, or speaks of as many files as are there.
+bool may_have_siblings(const GadgetHeader& header, std::size_t files_there);
+
+// Whether two files are of one state of the same simulation.
+bool are_of_one_time(const GadgetHeader& a, const GadgetHeader& b);
+
 // The members' headers as one snapshot: counts added, everything else as in the first.
 // Refuses members that do not belong together and counts that do not add up; high words of the
 // totals that the counts contradict are ignored, with a note.
@@ -62,6 +69,23 @@ void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::
 // Fills what follows from the header: time, redshift, box, h, types with count and mass.
 void describe(const GadgetHeader& header, SnapshotInfo& info);
 
+// The files of the snapshot that `path`, with this header, belongs to. A header may say that its
+// file is all there is and be wrong: files beside it of the same time then count as well.
+template <typename Read>
+std::vector<std::filesystem::path> find_set(const std::filesystem::path& path,
+                                            const GadgetHeader& header, Read&& read) {
+  if (!is_complete_alone(header)) return find_members(path, header.files);
+  const std::vector<std::filesystem::path> siblings = find_siblings(path);
+  if (siblings.size() < 2 || !may_have_siblings(header, siblings.size())) return {path};
+  std::vector<std::string> ignored;
+  const bool are_of_one_snapshot =
+      std::all_of(siblings.begin(), siblings.end(), [&](const std::filesystem::path& sibling) {
+        return sibling == path || are_of_one_time(header, read(sibling, ignored).header());
+      });
+  if (are_of_one_snapshot) return siblings;
+  return {path};
+}
+
 // The files of the snapshot that `path` belongs to, in order, each as `read` gives it:
 // read(path, notes) returns a Member, which has a header(). Fills in what `info` says of
 // the whole. Throws DataError when they do not belong together.
@@ -70,8 +94,7 @@ auto read_members(const std::filesystem::path& path, Read&& read, SnapshotInfo& 
   std::vector<std::string> notes;
   // The named file first: what is wrong with it matters more than what is missing beside it.
   auto named = read(path, notes);
-  info.files = is_complete_alone(named.header()) ? std::vector<std::filesystem::path>{path}
-                                                 : find_members(path, named.header().files);
+  info.files = find_set(path, named.header(), read);
   std::vector<decltype(named)> members;
   std::vector<GadgetHeader> headers;
   for (const auto& file : info.files) {

@@ -40,8 +40,8 @@ Hdf5Member read_hdf5_member(const std::filesystem::path& path, std::vector<std::
   member.own_header = read_hdf5_header(file, notes);
   count_rows_without_header(file, member.own_header, notes);
   leave_out_tracers(file, member.own_header, notes);
+  count_rows_of_positions(file, member.own_header, notes);
   check_header(member.header(), path);
-  check_hdf5_groups(file, member.header());
   for (std::size_t type = 0; type < member.header().counts.size(); ++type) {
     if (member.header().counts[type] == 0) continue;
     const auto number = static_cast<int>(type);
@@ -55,6 +55,13 @@ Hdf5Member read_hdf5_member(const std::filesystem::path& path, std::vector<std::
 // By another name than that of the snapshot's function.
 std::optional<std::vector<std::uint64_t>> read_integers_of(const std::vector<Hdf5Values>& parts) {
   return read_integers(parts);
+}
+
+Column at_least_zero(const Column& column) {
+  std::vector<float> values(column.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = column[i] < 0 ? 0 : column[i];
+  return Column::owning(std::move(values));
 }
 
 class GadgetHdf5Snapshot : public Snapshot {
@@ -71,6 +78,9 @@ class GadgetHdf5Snapshot : public Snapshot {
   void read_dialect();
   void read_motion();
   void find_fields(ParticleTypeInfo& type);
+  static void name_subfinds_lengths(ParticleTypeInfo& type);
+  bool has_times_for_rates(const FieldInfo& field) const;
+  void note_negative_rates(const ParticleTypeInfo& type);
   static void name_unit_of_table_mass(const Hdf5File& file, ParticleTypeInfo& type);
   bool is_in_every_member(int type, const Hdf5Field& field) const;
   std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
@@ -79,6 +89,7 @@ class GadgetHdf5Snapshot : public Snapshot {
   std::vector<Hdf5Member> members_;
   SnapshotInfo info_;
   Vec3 origin_ = {{0, 0, 0}};
+  bool is_swift_ = false;
   double smoothing_length_factor_ = 1;  // from what the file has to the support radius
 };
 
@@ -100,9 +111,10 @@ void GadgetHdf5Snapshot::read_dialect() {
   const Hdf5File file(members_.front().path);
   const bool is_swift = is_swift_file(file);
   info_.format = hdf5_dialect(file);
+  is_swift_ = is_swift;
+  // What SWIFT's own kernel, the cubic spline, has in three dimensions.
+  constexpr double cubic_spline_gamma = 1.825742;
   if (is_swift_start_file(file)) {
-    // What SWIFT's own kernel, the cubic spline, has in three dimensions.
-    constexpr double cubic_spline_gamma = 1.825742;
     smoothing_length_factor_ = cubic_spline_gamma;
     if (file.has("PartType0/SmoothingLength") || file.has("PartType0/SmoothingLengths")) {
       info_.notes.push_back(
@@ -113,11 +125,11 @@ void GadgetHdf5Snapshot::read_dialect() {
   if (!is_swift) return;
   // SWIFT stores the kernel's scale, not its support.
   const auto gamma = file.number("HydroScheme", "Kernel gamma");
-  smoothing_length_factor_ = gamma.value_or(1);
+  smoothing_length_factor_ = gamma.value_or(cubic_spline_gamma);
   if (gamma || !file.has("PartType0")) return;
   info_.notes.push_back(
-      "HydroScheme does not say SWIFT's Kernel gamma: smoothing lengths are taken as they are, "
-      "though SWIFT's end before its kernel does");
+      "HydroScheme does not say SWIFT's Kernel gamma: the cubic spline's is taken, which reaches "
+      "1.8257 times the smoothing lengths in the file");
 }
 
 void GadgetHdf5Snapshot::read_motion() {
@@ -161,7 +173,31 @@ void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
   }
   add_table_mass(type, "MassTable", info_.notes);
   name_fields(type);
+  name_subfinds_lengths(type);
+  note_negative_rates(type);
   if (type.table_mass) name_unit_of_table_mass(file, type);
+}
+
+// SUBFIND's reach to the nearest particles of dark matter: of that type they are smoothing lengths.
+void GadgetHdf5Snapshot::name_subfinds_lengths(ParticleTypeInfo& type) {
+  constexpr int dark_matter = 1;
+  if (type.type != dark_matter || find_field(type, "smoothing_length") != nullptr) return;
+  for (FieldInfo& field : type.fields) {
+    if (field.file_name == "SubfindHsml") field.name = "smoothing_length";
+  }
+}
+
+// Since SWIFT keeps there when a particle last formed stars.
+bool GadgetHdf5Snapshot::has_times_for_rates(const FieldInfo& field) const {
+  return is_swift_ && field.name == "star_formation_rate";
+}
+
+void GadgetHdf5Snapshot::note_negative_rates(const ParticleTypeInfo& type) {
+  for (const FieldInfo& field : type.fields) {
+    if (!has_times_for_rates(field)) continue;
+    info_.notes.push_back(fmt::format("{} below 0 are no rates but times in SWIFT: they count as 0",
+                                      field.file_name));
+  }
 }
 
 // The table states no unit. Gadget 4's masses have the power of h that its positions state.
@@ -210,6 +246,7 @@ Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
   const auto parts = find_parts(type, field.file_name);
   if (field.name == "position") return read_column(parts, origin_);
   if (field.name == "smoothing_length") return read_column(parts, {}, smoothing_length_factor_);
+  if (has_times_for_rates(field)) return at_least_zero(read_column(parts));
   return read_column(parts);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "common/physical_constants.h"
@@ -28,6 +29,35 @@ double find_number(const Hdf5File& file, const std::vector<AttributeLocation>& l
   return otherwise;
 }
 
+// Of a dataset of the first type that states it; 0: none does.
+double size_of_unit(const Hdf5File& file, const std::string& label, const char* attribute) {
+  constexpr int most_types = 8;
+  for (int type = 0; type < most_types; ++type) {
+    const auto size = file.number(fmt::format("PartType{}/{}", type, label), attribute);
+    if (size && *size > 0) return *size;
+  }
+  return 0;
+}
+
+double size_of_swift_unit(const Hdf5File& file, const std::string& label) {
+  return size_of_unit(file, label, size_in_swift);
+}
+
+// Without the units of the whole file those of its datasets tell.
+BaseUnits read_units_of_datasets(const Hdf5File& file) {
+  BaseUnits units;
+  for (const char* const attribute : {size_in_swift, size_in_eagle, size_in_gadget}) {
+    units.length_in_cm = size_of_unit(file, "Coordinates", attribute);
+    units.mass_in_g = size_of_unit(file, "Masses", attribute);
+    if (units.mass_in_g == 0) units.mass_in_g = size_of_unit(file, "Mass", attribute);
+    units.velocity_in_cm_per_s = size_of_unit(file, "Velocities", attribute);
+    if (units.velocity_in_cm_per_s == 0)
+      units.velocity_in_cm_per_s = size_of_unit(file, "Velocity", attribute);
+    if (units.length_in_cm > 0) break;
+  }
+  return units;
+}
+
 // Whole numbers of at least 0; none, and a note, where one is something else. The datasets
 // themselves tell how many particles there are.
 std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribute,
@@ -43,6 +73,17 @@ std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribu
     counts.push_back(static_cast<std::uint64_t>(number));
   }
   return counts;
+}
+
+// What is at the root, for a message.
+std::vector<std::string> contents_of(const Hdf5File& file) {
+  std::vector<std::string> contents = file.groups("/");
+  for (const Hdf5Dataset& dataset : file.datasets("/")) {
+    contents.push_back(
+        fmt::format("{} ({}{})", dataset.label(), fmt::join(dataset.shape, " x "),
+                    dataset.kind == Hdf5Dataset::Kind::other ? ", no plain numbers" : ""));
+  }
+  return contents;
 }
 
 // One length for all axes, or one for each.
@@ -67,11 +108,11 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   const auto counts = read_counts(file, "NumPart_ThisFile", notes);
   const bool has_header = file.numbers("Header", "NumPart_ThisFile").has_value();
   if (!has_header || counts.size() > most_types) {
-    throw DataError(
-        fmt::format("{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (its "
-                    "groups are: {}); expected a snapshot of Gadget or SWIFT, or datasets of "
-                    "positions at its root or in its groups",
-                    file.path().string(), fmt::join(file.groups("/"), ", ")));
+    throw DataError(fmt::format(
+        "{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (it "
+        "holds: {}); expected a snapshot of Gadget or SWIFT, or datasets of positions at "
+        "its root or in its groups, of one number or three in each row: write it so",
+        file.path().string(), fmt::join(contents_of(file), ", ")));
   }
   GadgetHeader header;
   header.counts = counts;
@@ -85,7 +126,9 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   header.table_masses = file.numbers("Header", "MassTable").value_or(std::vector<double>());
   header.table_masses.resize(types, 0);
   header.time = file.number("Header", "Time").value_or(0);
-  const double files = file.number("Header", "NumFilesPerSnapshot").value_or(1);
+  // Gadget 4's light cones have the shorter name.
+  const double files =
+      find_number(file, {{"Header", "NumFilesPerSnapshot"}, {"Header", "NumFiles"}}, 1);
   header.files = files >= 1 && files <= 1e9 ? static_cast<int>(files) : 1;
   header.box_size = read_box_size(file);
   header.hubble_parameter = find_number(
@@ -113,12 +156,15 @@ std::string hdf5_dialect(const Hdf5File& file) {
   if (file.number("Header", "GIZMO_version")) return "GIZMO HDF5";
   // A moving mesh has cells with centres and volumes, and no kernel.
   const bool is_mesh = (file.has("/PartType0/CenterOfMass") || file.has("/PartType0/Volume")) &&
-                       !file.has("/PartType0/SmoothingLength");
+                       !file.has("/PartType0/SmoothingLength") &&
+                       !file.has("/PartType0/KernelMaxRadius");
   return is_mesh ? "AREPO HDF5" : "Gadget HDF5";
 }
 
 bool is_swift_file(const Hdf5File& file) {
-  return file.text("Header", "Code") == "SWIFT" || file.text("Code", "Code") == "SWIFT";
+  if (file.text("Header", "Code") == "SWIFT" || file.text("Code", "Code") == "SWIFT") return true;
+  const bool names_code = file.text("Header", "Code") || file.text("Code", "Code");
+  return !names_code && !file.has("Units") && size_of_swift_unit(file, "Coordinates") > 0;
 }
 
 bool is_swift_start_file(const Hdf5File& file) {
@@ -179,7 +225,9 @@ BaseUnits read_base_units(const Hdf5File& file) {
                                            0);
   const double time = file.number("Units", "Unit time in cgs (U_t)").value_or(0);
   if (time > 0) units.velocity_in_cm_per_s = units.length_in_cm / time;
-  return units;
+  const bool are_known =
+      units.length_in_cm > 0 || units.mass_in_g > 0 || units.velocity_in_cm_per_s > 0;
+  return are_known ? units : read_units_of_datasets(file);
 }
 
 namespace {
@@ -210,13 +258,38 @@ const char* columns_of(const Hdf5Dataset& dataset) {
       labels.empty() ? "no datasets" : fmt::format("only {}", fmt::join(labels, ", "))));
 }
 
-void check_rows(const Hdf5File& file, const Hdf5Dataset& dataset, std::uint64_t count,
-                std::size_t type) {
-  if (!dataset.shape.empty() && dataset.rows() == count) return;
-  throw DataError(
-      fmt::format("{}: dataset {} has {} rows, but the header counts {} particles of type {}; the "
-                  "file is damaged or its header is wrong",
-                  file.path().string(), dataset.path, dataset.rows(), count, type));
+// The positions of a type; null where it has none.
+const Hdf5Dataset* find_positions(const std::vector<Hdf5Dataset>& datasets) {
+  const auto found = std::find_if(datasets.begin(), datasets.end(), [](const Hdf5Dataset& dataset) {
+    return canonical_field_name(dataset.label()) == "position" &&
+           dataset.kind != Hdf5Dataset::Kind::other && !dataset.shape.empty() &&
+           dataset.values_per_row() == 3;
+  });
+  return found == datasets.end() ? nullptr : &*found;
+}
+
+bool have_rows(const std::vector<Hdf5Dataset>& datasets) {
+  return std::any_of(datasets.begin(), datasets.end(), [](const Hdf5Dataset& dataset) {
+    return !dataset.shape.empty() && dataset.rows() > 0;
+  });
+}
+
+void set_count(GadgetHeader& header, std::size_t type, std::uint64_t count) {
+  const std::size_t types = std::max(header.counts.size(), type + 1);
+  header.counts.resize(types, 0);
+  header.total_counts.resize(types, 0);
+  header.total_counts_high.resize(types, 0);
+  header.table_masses.resize(types, 0);
+  header.counts[type] = count;
+}
+
+void leave_out(GadgetHeader& header, std::size_t type) {
+  if (type >= header.counts.size()) return;
+  header.counts[type] = header.total_counts[type] = header.total_counts_high[type] = 0;
+}
+
+std::vector<Hdf5Dataset> datasets_of(const Hdf5File& file, const std::string& group) {
+  return file.has(group) ? file.datasets(group) : std::vector<Hdf5Dataset>();
 }
 
 constexpr std::size_t more_types_than_any_code = 32;
@@ -228,17 +301,9 @@ void count_rows_without_header(const Hdf5File& file, GadgetHeader& header,
   if (header.particles() > 0 || header.files > 1) return;
   for (std::size_t type = 0; type < more_types_than_any_code; ++type) {
     if (!file.has(group_name(type))) continue;
-    for (const Hdf5Dataset& dataset : file.datasets(group_name(type))) {
-      const bool is_position = canonical_field_name(dataset.label()) == "position" &&
-                               !dataset.shape.empty() && dataset.values_per_row() == 3;
-      if (!is_position) continue;
-      const std::size_t types = std::max(header.counts.size(), type + 1);
-      header.counts.resize(types, 0);
-      header.total_counts.resize(types, 0);
-      header.total_counts_high.resize(types, 0);
-      header.table_masses.resize(types, 0);
-      header.counts[type] = dataset.rows();
-    }
+    const std::vector<Hdf5Dataset> datasets = file.datasets(group_name(type));
+    const Hdf5Dataset* const positions = find_positions(datasets);
+    if (positions != nullptr) set_count(header, type, positions->rows());
   }
   if (header.particles() == 0) return;
   std::fill(header.total_counts.begin(), header.total_counts.end(), 0);
@@ -255,9 +320,7 @@ void leave_out_tracers(const Hdf5File& file, GadgetHeader& header,
                              !file.has(group + "/Coordinates");
     if (!are_tracers) continue;
     notes.push_back(fmt::format("the tracers of {} are left out: they have no positions", group));
-    header.counts[type] = 0;
-    header.total_counts[type] = 0;
-    header.total_counts_high[type] = 0;
+    leave_out(header, type);
   }
 }
 
@@ -266,24 +329,24 @@ std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader
   const auto index = static_cast<std::size_t>(type);
   const std::string group = group_name(index);
   const std::uint64_t count = header.counts[index];
-  std::vector<Hdf5Dataset> datasets;
-  if (file.has(group)) datasets = file.datasets(group);
   std::vector<Hdf5Field> fields;
-  std::vector<std::string> left_out;
-  bool has_positions = false;
-  for (const Hdf5Dataset& dataset : datasets) {
-    check_rows(file, dataset, count, index);
+  std::vector<std::string> of_other_lengths, left_out;
+  for (const Hdf5Dataset& dataset : file.datasets(group)) {
     const std::string label = dataset.label();
     const std::uint64_t values = dataset.values_per_row();
     const bool is_usable = dataset.kind != Hdf5Dataset::Kind::other && (values == 1 || values == 3);
-    if (!is_usable) {
+    if (dataset.shape.empty() || dataset.rows() != count) {
+      of_other_lengths.push_back(fmt::format("{} ({})", label, dataset.rows()));
+    } else if (!is_usable) {
       left_out.push_back(label);
-      continue;
+    } else {
+      fields.push_back({label, static_cast<int>(values), dataset});
     }
-    if (canonical_field_name(label) == "position" && values == 3) has_positions = true;
-    fields.push_back({label, static_cast<int>(values), dataset});
   }
-  if (!has_positions) throw_no_positions(file, group, count, datasets);
+  if (!of_other_lengths.empty()) {
+    notes.push_back(fmt::format("left out of {}, as they have other than {} rows: {}", group, count,
+                                fmt::join(of_other_lengths, ", ")));
+  }
   if (!left_out.empty()) {
     notes.push_back(
         fmt::format("left out of {}, as they are not one or three numbers per particle: {}", group,
@@ -292,23 +355,34 @@ std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader
   return fields;
 }
 
-void check_hdf5_groups(const Hdf5File& file, const GadgetHeader& header) {
+void count_rows_of_positions(const Hdf5File& file, GadgetHeader& header,
+                             std::vector<std::string>& notes) {
+  std::optional<std::size_t> without_positions;
+  const GadgetHeader stated = header;
   for (std::size_t type = 0; type < more_types_than_any_code; ++type) {
-    const bool is_counted = type < header.counts.size() && header.counts[type] > 0;
-    const bool are_tracers = file.has(group_name(type) + "/TracerID");
-    if (is_counted || are_tracers || !file.has(group_name(type))) continue;
-    const std::vector<Hdf5Dataset> datasets = file.datasets(group_name(type));
-    const bool has_rows = std::any_of(datasets.begin(), datasets.end(), [](const Hdf5Dataset& d) {
-      return !d.shape.empty() && d.rows() > 0;
-    });
-    const bool has_positions =
-        std::any_of(datasets.begin(), datasets.end(), [](const Hdf5Dataset& dataset) {
-          return canonical_field_name(dataset.label()) == "position";
-        });
-    if (has_rows && !has_positions) throw_no_positions(file, group_name(type), 0, datasets);
-    for (const Hdf5Dataset& dataset : datasets)
-      check_rows(file, dataset, 0, type);
+    const std::uint64_t count = type < stated.counts.size() ? stated.counts[type] : 0;
+    const std::string group = group_name(type);
+    if (file.has(group + "/TracerID") && count == 0) continue;
+    const std::vector<Hdf5Dataset> datasets = datasets_of(file, group);
+    const Hdf5Dataset* const positions = find_positions(datasets);
+    if (positions == nullptr) {
+      if (count == 0 && !have_rows(datasets)) continue;
+      if (!without_positions) without_positions = type;
+      leave_out(header, type);
+      notes.push_back(
+          fmt::format("{} is left out: the header counts {} particles, but {}", group, count,
+                      file.has(group) ? "it has no positions" : "there is no such group"));
+    } else if (positions->rows() != count) {
+      notes.push_back(
+          fmt::format("the header counts {} particles of type {}, but {} has {} rows: these count",
+                      count, type, positions->path, positions->rows()));
+      set_count(header, type, positions->rows());
+    }
   }
+  if (header.particles() > 0 || !without_positions) return;
+  const std::size_t type = *without_positions;
+  throw_no_positions(file, group_name(type), type < stated.counts.size() ? stated.counts[type] : 0,
+                     datasets_of(file, group_name(type)));
 }
 
 }  // namespace splotchcl

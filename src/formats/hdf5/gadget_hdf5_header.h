@@ -14,6 +14,8 @@ namespace splotchcl {
 // scalars or arrays of any length, and cosmology may be in other groups. Throws DataError.
 GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& notes);
 
+// Also a part of one that was written without what SWIFT says of itself: its datasets have SWIFT's
+// attributes.
 bool is_swift_file(const Hdf5File& file);
 // Whether it holds initial conditions for SWIFT, which name no code but have its units.
 bool is_swift_start_file(const Hdf5File& file);
@@ -42,8 +44,8 @@ struct Hdf5Field {
 };
 
 // The fields of group PartType<type>. Datasets that are neither numbers nor have one or
-// three values per particle are left out and named in `notes`. Throws DataError when a
-// dataset contradicts the header or positions are missing.
+// three values per particle, and those that have not a row for each, are left out and named in
+// `notes`.
 std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader& header, int type,
                                         std::vector<std::string>& notes);
 
@@ -55,7 +57,9 @@ void count_rows_without_header(const Hdf5File& file, GadgetHeader& header,
 // AREPO's tracers are marks on cells, without positions of their own: they do not count.
 void leave_out_tracers(const Hdf5File& file, GadgetHeader& header, std::vector<std::string>& notes);
 
-// Throws DataError when a group PartTypeN has particles of which the header knows nothing.
-void check_hdf5_groups(const Hdf5File& file, const GadgetHeader& header);
+// The rows of the positions count where the header counts others, and a type without positions, or
+// without its group, is left out: both with a note. Throws DataError when no type has positions.
+void count_rows_of_positions(const Hdf5File& file, GadgetHeader& header,
+                             std::vector<std::string>& notes);
 
 }  // namespace splotchcl

@@ -209,7 +209,10 @@ Hdf5Dataset Hdf5File::dataset(const std::string& path) const {
   result.bytes_per_value = H5Tget_size(type.id());
   const H5T_class_t kind = H5Tget_class(type.id());
   if (kind == H5T_FLOAT) result.kind = Hdf5Dataset::Kind::real;
-  if (kind == H5T_INTEGER) result.kind = Hdf5Dataset::Kind::integer;
+  // h5py's truth values are named numbers.
+  const bool are_named =
+      kind == H5T_ENUM && H5Tget_class(Type(H5Tget_super(type.id())).id()) == H5T_INTEGER;
+  if (kind == H5T_INTEGER || are_named) result.kind = Hdf5Dataset::Kind::integer;
   return result;
 }
 

@@ -1,8 +1,10 @@
 #include "formats/hdf5/hdf5_formats.h"
 
+#include <fmt/format.h>
 #include <hdf5.h>
 
 #include "formats/snapshot_format.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
 
@@ -14,6 +16,14 @@ bool holds_map(const Hdf5File& file) {
   return file.text("map", "quantity") && file.text("map", "unit") && file.numbers("map", "extent");
 }
 
+std::unique_ptr<Snapshot> open_group(const PathInFile& within) {
+  if (is_plain_hdf5(Hdf5File(within.file))) return open_plain_hdf5(within.file, within.group);
+  throw DataError(
+      fmt::format("{}: has a header, so that its group {} is no snapshot; give the path "
+                  "of the file",
+                  within.file.string(), within.group));
+}
+
 class Hdf5Formats : public SnapshotFormat {
  public:
   bool recognizes(const std::shared_ptr<const MappedFile>& file) const override {
@@ -21,6 +31,7 @@ class Hdf5Formats : public SnapshotFormat {
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
                                  const SnapshotOptions&) const override {
+    if (const auto within = path_in_file(path)) return open_group(*within);
     const Hdf5File file(path);
     if (is_phantom_hdf5(file)) return open_phantom_hdf5(path);
     if (is_plain_hdf5(file)) return open_plain_hdf5(path);
@@ -28,6 +39,7 @@ class Hdf5Formats : public SnapshotFormat {
     throw DataError(path.string() +
                     ": holds a map, expected particles; give the snapshot that it is a map of");
   }
+  bool has_groups() const override { return true; }
   bool is_map(const std::filesystem::path& path) const override {
     try {
       return holds_map(Hdf5File(path));

@@ -13,7 +13,9 @@ std::unique_ptr<Snapshot> open_gadget_hdf5(const std::filesystem::path& path);
 
 // Datasets of positions without a header that counts particles.
 bool is_plain_hdf5(const Hdf5File& file);
-std::unique_ptr<Snapshot> open_plain_hdf5(const std::filesystem::path& path);
+// `wanted_group`: the only group of particles that is read; empty: those that belong together.
+std::unique_ptr<Snapshot> open_plain_hdf5(const std::filesystem::path& path,
+                                          const std::string& wanted_group = "");
 
 bool is_phantom_hdf5(const Hdf5File& file);
 std::unique_ptr<Snapshot> open_phantom_hdf5(const std::filesystem::path& path);

@@ -39,14 +39,21 @@ UnitPowers stated_powers(const Hdf5File& file, const std::string& dataset) {
   return powers;
 }
 
-// EAGLE's files state the size of a unit, but not of what it is one.
-UnitPowers powers_of_eagle(const std::string& label) {
+// Where a file states the size of a unit, but not of what it is one, as EAGLE's do.
+UnitPowers powers_by_name(const std::string& label) {
   const std::string field = canonical_field_name(label);
   if (field != "star_formation_rate") return powers_of_field(field);
   UnitPowers powers;
   powers.mass = powers.velocity = 1;
   powers.length = -1;
   return powers;
+}
+
+bool states_powers(const Hdf5File& file, const std::string& dataset) {
+  return find_power(file, dataset,
+                    {"mass_scaling", "length_scaling", "velocity_scaling", "U_M exponent",
+                     "U_L exponent", "U_t exponent", "U_T exponent"})
+      .has_value();
 }
 
 }  // namespace
@@ -66,12 +73,14 @@ std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
   const std::string& path = dataset.path;
   // We have no name for currents.
   if (file.number(path, "U_I exponent").value_or(0) != 0) return {};
-  const auto eagle = file.number(path, "CGSConversionFactor");
-  UnitPowers powers = eagle ? powers_of_eagle(dataset.label()) : stated_powers(file, path);
+  const double size =
+      find_power(file, path, {size_in_eagle, size_in_gadget, size_in_swift}).value_or(0);
+  const bool goes_by_name = size > 0 && !states_powers(file, path);
+  UnitPowers powers = goes_by_name ? powers_by_name(dataset.label()) : stated_powers(file, path);
   if (units.has_scale_factor) powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
   powers.hubble =
       find_power(file, path, {"h_scaling", "h-scale exponent", "h-scale-exponent"}).value_or(0);
-  return unit_name(powers, units.base, eagle ? *eagle : file.number(path, "to_cgs").value_or(0));
+  return unit_name(powers, units.base, size);
 }
 
 namespace {

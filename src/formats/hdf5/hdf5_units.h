@@ -9,6 +9,12 @@
 
 namespace splotchcl {
 
+// Attributes of a dataset that state how large its unit is in cgs.
+constexpr const char* size_in_gadget = "to_cgs";  // of Gadget 4 and AREPO
+constexpr const char* size_in_eagle = "CGSConversionFactor";
+constexpr const char* size_in_swift =
+    "Conversion factor to CGS (not including cosmological corrections)";
+
 // The power of the scale factor that makes a dataset's values physical, where its attributes say
 // it.
 std::optional<double> read_scale_factor_power(const Hdf5File& file, const std::string& dataset);

@@ -400,7 +400,9 @@ Column PhantomSnapshot::read(int type, const std::string& name) const {
 }  // namespace
 
 bool is_phantom_hdf5(const Hdf5File& file) {
-  if (!file.has("/particles") || file.has("/Header")) return false;
+  const std::vector<std::string> groups = file.groups("/");
+  const bool has_group = std::find(groups.begin(), groups.end(), "particles") != groups.end();
+  if (!has_group || file.has("/Header")) return false;
   const bool has_its_names =
       file.has("/header/massoftype") || file.has("/particles/xyz") || file.has("/particles/x");
   return has_its_names || !is_plain_hdf5(file);

@@ -8,6 +8,8 @@
 
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_formats.h"
+#include "formats/hdf5/hdf5_steps.h"
+#include "formats/hdf5/hdf5_units.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
@@ -38,7 +40,7 @@ std::string unit_of(const Hdf5File& file, const Hdf5Dataset& dataset) {
     const auto unit = file.text(dataset.path, attribute);
     if (unit && !unit->empty() && *unit != "dimensionless") return *unit;
   }
-  return {};
+  return read_field_unit(file, dataset, read_units(file));
 }
 
 TableColumn column_of(const Hdf5File& file, const Hdf5Dataset& dataset) {
@@ -215,9 +217,28 @@ std::map<int, std::string> choose_types(const std::vector<std::string>& groups, 
   return types;
 }
 
+// Of groups that are steps in time one: that which is asked for, or the last.
+std::vector<std::string> choose_step(const Hdf5File& file, const std::vector<std::string>& groups,
+                                     const std::string& wanted, Notes& notes) {
+  if (!wanted.empty()) {
+    if (std::find(groups.begin(), groups.end(), "/" + wanted) != groups.end())
+      return {"/" + wanted};
+    throw DataError(fmt::format("{}: found no particles in a group {}, expected one of {}",
+                                file.path().string(), wanted, fmt::join(groups, ", ")));
+  }
+  const std::vector<std::string> steps = find_steps(file, groups);
+  if (steps.empty()) return groups;
+  notes.push_back(fmt::format(
+      "the file has {0} steps in time, {1} to {2}: the last is read; {3}{1} as the snapshot is the "
+      "first, and time.snapshots may list them",
+      steps.size(), steps.front(), steps.back(), file.path().string()));
+  return {steps.back()};
+}
+
 // The first of these attributes that is a number, or a dataset of a single one.
-std::optional<double> find_number(const Hdf5File& file, const std::vector<const char*>& names) {
-  for (const char* object : {"/", "Header"}) {
+std::optional<double> find_number(const Hdf5File& file, const std::vector<const char*>& names,
+                                  const std::string& group = "/") {
+  for (const std::string& object : {group, std::string("/"), std::string("Header")}) {
     for (const char* name : names) {
       if (const auto number = file.number(object, name)) return number;
     }
@@ -269,11 +290,12 @@ std::optional<BoxSides> find_domain(const Hdf5File& file, const std::string& pos
   return box_of(sides);
 }
 
-void read_numbers(const Hdf5File& file, SnapshotInfo& info) {
-  info.time = find_number(file, {"time", "Time", "current_time"}).value_or(0);
+// `group`: of the only particles, or the root.
+void read_numbers(const Hdf5File& file, const std::string& group, SnapshotInfo& info) {
+  info.time = find_number(file, {"time", "Time", "current_time"}, group).value_or(0);
   const bool is_of_expansion = file.number("/", "cosmological_simulation").value_or(1) != 0;
   if (is_of_expansion) {
-    info.redshift = find_number(file, {"redshift", "Redshift", "current_redshift"});
+    info.redshift = find_number(file, {"redshift", "Redshift", "current_redshift"}, group);
   }
   info.hubble_parameter = find_number(file, {"HubbleParam", "hubble_constant"});
 }
@@ -297,15 +319,18 @@ bool is_plain_hdf5(const Hdf5File& file) {
   return !file.numbers("Header", "NumPart_ThisFile") && !particle_groups(file).empty();
 }
 
-std::unique_ptr<Snapshot> open_plain_hdf5(const std::filesystem::path& path) {
+std::unique_ptr<Snapshot> open_plain_hdf5(const std::filesystem::path& path,
+                                          const std::string& wanted_group) {
   const Hdf5File file(path);
   const bool is_of_yt = file.text("/", "data_type").value_or("").compare(0, 3, "yt_") == 0;
   SnapshotInfo info;
   info.format = is_of_yt ? "HDF5 by yt's save_as_dataset" : "HDF5 without a header";
   info.files = {path};
-  read_numbers(file, info);
+  const std::vector<std::string> groups =
+      choose_step(file, particle_groups(file), wanted_group, info.notes);
+  read_numbers(file, groups.size() == 1 ? groups.front() : "/", info);
   TablesByType tables;
-  for (const auto& [type, group] : choose_types(particle_groups(file), info.notes)) {
+  for (const auto& [type, group] : choose_types(groups, info.notes)) {
     tables.emplace(type, std::make_unique<Hdf5Table>(path, group, info.notes));
   }
   // By now it has been asked for all groups.

@@ -171,6 +171,7 @@ NumpyMember parse_type(const std::string& text, const std::string& name) {
     if (known.code != code) continue;
     member.kind = known.kind;
     member.is_usable = true;
+    member.is_truth = code == "b1";
   }
   const char* const end = code.data() + code.size();
   const auto [stop, error] = std::from_chars(code.data() + 1, end, member.bytes);
@@ -301,6 +302,11 @@ std::vector<std::uint64_t> read_numpy_integers(const std::filesystem::path& path
   const NumpyHeader header =
       read_numpy_header(file->data(), file->size(), file->size(), path.string());
   const NumpyMember& values = header.members.front();
+  if (values.is_truth) {
+    throw DataError(path.string() +
+                    ": found a mask of true and false, expected the identifiers of the particles "
+                    "that are wanted; save ids[mask] instead");
+  }
   const bool is_list = !header.is_structured && values.is_usable && header.shape.size() == 1;
   if (is_list) {
     StoredValues stored;

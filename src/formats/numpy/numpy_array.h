@@ -18,6 +18,7 @@ struct NumpyMember {
   ValueKind kind = ValueKind::float32;
   bool is_swapped = false;
   bool is_usable = false;    // a number of a kind that is read
+  bool is_truth = false;     // of values that are true or false
   bool is_object = false;    // of Python, whatever it is
   std::uint64_t offset = 0;  // in the record
   std::uint64_t values = 1;  // more for members that are arrays

@@ -13,6 +13,8 @@
 
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
+#include "formats/table_names.h"
+#include "formats/text/table_header.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
@@ -57,13 +59,16 @@ class Lines {
                          : static_cast<std::uint64_t>(static_cast<const char*>(end) - data_);
       offset_ = stop + 1;
       ++number_;
-      line_ = trim(std::string_view(data_ + start_, stop - start_));
+      whole_ = std::string_view(data_ + start_, stop - start_);
+      line_ = trim(whole_);
       begins_with_blank_ = data_[start_] == ' ' || data_[start_] == '\t';
       if (!line_.empty()) return true;
     }
     return false;
   }
   std::string_view line() const { return line_; }
+  // Where a tab at the beginning or end means an empty cell.
+  std::string_view line(char separator) const { return separator == '\t' ? whole_ : line_; }
   bool begins_with_blank() const { return begins_with_blank_; }
   std::uint64_t number() const { return number_; }  // from 1
   std::uint64_t start() const { return start_; }
@@ -72,18 +77,21 @@ class Lines {
   const char* data_;
   std::uint64_t size_, offset_, number_;
   std::uint64_t start_ = 0;
-  std::string_view line_;
+  std::string_view line_, whole_;
   bool begins_with_blank_ = false;
 };
 
-// The separator of a line: a comma or semicolon outside of quotes, else white space.
+// The separator of a line: a semicolon or comma outside of quotes, else white space. Between
+// semicolons a comma may be that of a number.
 char find_separator(std::string_view line) {
   bool is_quoted = false;
+  char separator = ' ';
   for (const char c : line) {
     if (c == '"') is_quoted = !is_quoted;
-    if (!is_quoted && (c == ',' || c == ';')) return c;
+    if (!is_quoted && c == ';') return c;
+    if (!is_quoted && c == ',') separator = c;
   }
-  return ' ';
+  return separator;
 }
 
 // Takes the next cell off the line, without quotes and blanks around it.
@@ -133,6 +141,13 @@ std::optional<double> parse_number(std::string_view cell) {
   if (is_missing(cell)) return std::numeric_limits<double>::quiet_NaN();
   if (cell.front() == '+') cell.remove_prefix(1);
   if (const auto value = parse_plain(cell)) return value;
+  // Of countries with a decimal comma: no cell between commas has one.
+  const std::size_t comma = cell.find(',');
+  if (comma != std::string_view::npos && cell.size() <= 64) {
+    std::string with_point(cell);
+    with_point[comma] = '.';
+    return parse_plain(with_point);
+  }
   // Fortran's double precision: 1.5D+03.
   const std::size_t exponent = cell.find_first_of("dD");
   if (exponent == std::string_view::npos || exponent == 0 || cell.size() > 64) return std::nullopt;
@@ -174,15 +189,19 @@ std::vector<std::string> with_units(const std::vector<std::string_view>& words) 
 std::vector<std::string> names_in(std::string_view line, std::size_t wanted) {
   for (const char candidate : {',', ';', ' '}) {
     const std::vector<std::string_view> words = split(line, candidate);
+    // Lines of SPLASH end in a comma.
+    const auto end = words.end() - (words.size() > 2 && words.back().empty() ? 1 : 0);
     const bool is_complete =
-        words.size() == wanted && std::none_of(words.begin() + 1, words.end(),
-                                               [](std::string_view word) { return word.empty(); });
+        words.size() == wanted &&
+        std::none_of(words.begin() + 1, end, [](std::string_view word) { return word.empty(); });
     if (is_complete) return {words.begin(), words.end()};
   }
   const bool is_empty = trim(line).empty();
   const std::vector<std::string> names =
       is_empty ? std::vector<std::string>() : with_units(split(line, ' '));
-  return names.size() == wanted ? names : std::vector<std::string>();
+  if (names.size() == wanted) return names;
+  const std::vector<std::string> far_apart = words_far_apart(line);
+  return far_apart.size() == wanted ? far_apart : std::vector<std::string>();
 }
 
 // As above, where a tab or blank before the first name stands for an empty one.
@@ -202,38 +221,102 @@ bool is_row(const std::vector<std::string_view>& cells) {
          }) >= fewest;
 }
 
+bool are_whole(const std::vector<std::string_view>& cells) {
+  return std::all_of(cells.begin(), cells.end(), [](std::string_view cell) {
+    return cell.find_first_not_of("0123456789") == std::string_view::npos;
+  });
+}
+
+// What may hold the names of columns.
+struct Header {
+  std::vector<std::string_view> comments;
+  std::string_view line;  // that is no comment; empty where there is none
+  std::string_view whole_line;
+  bool begins_with_blank = false;
+};
+
+bool name_positions(const std::vector<std::string>& names) {
+  std::vector<TableColumn> columns;
+  for (const std::string& name : names)
+    columns.push_back({name, 1});
+  return find_positions(columns).has_value();
+}
+
+// The comment whose words are as many as the columns: of several the last that names positions,
+// else the last.
+std::vector<std::string> names_in_comments(const std::vector<std::string_view>& comments,
+                                           std::size_t wanted) {
+  std::vector<std::string> last = names_by_number(comments, wanted);
+  if (!last.empty()) return last;
+  for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment) {
+    std::vector<std::string> names = names_in_columns(*comment);
+    if (names.size() != wanted) names = in_our_words(names_in(trim(*comment), wanted));
+    if (names.size() != wanted) continue;
+    if (name_positions(names)) return names;
+    if (last.empty()) last = std::move(names);
+  }
+  return last;
+}
+
+std::vector<std::string> names_in(const Header& header, std::size_t wanted) {
+  if (header.line.empty()) return names_in_comments(header.comments, wanted);
+  std::vector<std::string> names =
+      in_our_words(names_in_line(header.line, header.begins_with_blank, wanted));
+  add_ecsv_units(header.comments, names);
+  return names;
+}
+
+// Whether the line of names has so many of them apart by tabs: cells may then be empty.
+bool has_tabs(const Header& header, std::size_t columns) {
+  if (header.line.find('\t') == std::string_view::npos) return false;
+  const std::vector<std::string_view> names = split(header.whole_line, '\t');
+  return names.size() == columns && std::none_of(names.begin(), names.end(), is_missing);
+}
+
+std::vector<std::string> names_between_tabs(const Header& header) {
+  const std::vector<std::string_view> names = split(header.whole_line, '\t');
+  return in_our_words({names.begin(), names.end()});
+}
+
+std::string_view without_mark(std::string_view comment) {
+  comment.remove_prefix(comment.substr(0, 2) == "//" ? 2 : 1);
+  return comment;
+}
+
 // The first row of numbers, after comments and at most one other line, and the names before
 // it. None where the file is not a table.
 std::optional<Layout> find_layout(const MappedFile& file) {
   constexpr std::uint64_t farthest_row = 1U << 20;  // a text that is no table is given up
-  std::string_view header;
-  bool has_plain_header = false, begins_with_blank = false;
+  Header header;
   Lines lines(file);
   while (lines.next() && lines.start() < farthest_row) {
-    std::string_view line = lines.line();
+    const std::string_view line = lines.line();
     if (line.find('\0') != std::string_view::npos) return std::nullopt;
     if (is_comment(line)) {
-      if (has_plain_header) continue;
-      line.remove_prefix(line.substr(0, 2) == "//" ? 2 : 1);
-      if (!trim(line).empty()) header = trim(line);
+      header.comments.push_back(without_mark(line));
       continue;
     }
     Layout layout;
     layout.separator = find_separator(line);
     layout.cells = split(line, layout.separator);
+    const std::vector<std::string_view> apart_by_tabs = split(lines.line('\t'), '\t');
+    if (layout.separator == ' ' && is_row(apart_by_tabs) &&
+        has_tabs(header, apart_by_tabs.size())) {
+      layout.separator = '\t';
+      layout.cells = apart_by_tabs;
+    }
     if (is_row(layout.cells)) {
       layout.first_row = lines.start();
       layout.lines_before = lines.number() - 1;
-      if (!header.empty()) {
-        layout.names = names_in_line(header, begins_with_blank, layout.cells.size());
-      }
-      if (has_plain_header && layout.names.empty()) return std::nullopt;
+      layout.names = layout.separator == '\t' ? names_between_tabs(header)
+                                              : names_in(header, layout.cells.size());
+      if (!header.line.empty() && layout.names.empty()) return std::nullopt;
       return layout;
     }
-    if (has_plain_header) return std::nullopt;
-    has_plain_header = true;
-    begins_with_blank = lines.begins_with_blank();
-    header = line;
+    if (!header.line.empty()) return std::nullopt;
+    header.line = line;
+    header.whole_line = lines.line('\t');
+    header.begins_with_blank = lines.begins_with_blank();
   }
   return std::nullopt;
 }
@@ -254,6 +337,7 @@ class TextTable : public Table {
     std::size_t cell;
     std::size_t place;  // among the wanted values
   };
+  void leave_out_line_of_counts(std::vector<std::string>& notes);
   void read_row(const Lines& line, const std::vector<WantedCell>& wanted, double* values) const;
   [[noreturn]] void fail(const Lines& line, const std::string& what) const;
 
@@ -305,6 +389,25 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, const std::vector<s
   while (lines.next()) {
     if (!is_comment(lines.line())) ++rows_;
   }
+  if (!names.empty()) leave_out_line_of_counts(notes);
+}
+
+// Some codes write first how many rows there are. As a row it would be a particle: unlike one it is
+// all of whole numbers, of which the first is that of the rows.
+void TextTable::leave_out_line_of_counts(std::vector<std::string>& notes) {
+  const bool counts_rows = parse_number(layout_.cells.front()) == static_cast<double>(rows_ - 1);
+  if (!counts_rows || !are_whole(layout_.cells)) return;
+  Lines lines(*file_, layout_.first_row, layout_.lines_before);
+  lines.next();
+  const std::uint64_t number = lines.number();
+  while (lines.next() && is_comment(lines.line())) {
+  }
+  if (are_whole(split(lines.line(), layout_.separator))) return;
+  notes.push_back(
+      fmt::format("line {} is left out: it tells the number of rows, {}", number, rows_ - 1));
+  layout_.first_row = lines.start();
+  layout_.lines_before = lines.number() - 1;
+  --rows_;
 }
 
 void TextTable::fail(const Lines& line, const std::string& what) const {
@@ -314,7 +417,7 @@ void TextTable::fail(const Lines& line, const std::string& what) const {
 
 void TextTable::read_row(const Lines& line, const std::vector<WantedCell>& wanted,
                          double* values) const {
-  std::string_view rest = line.line();
+  std::string_view rest = line.line(layout_.separator);
   auto next = wanted.begin();
   std::size_t cells = 0;
   for (bool has_more = true; has_more; ++cells) {
@@ -353,7 +456,8 @@ std::optional<std::vector<std::uint64_t>> TextTable::integers(std::size_t column
   Lines lines(*file_, layout_.first_row, layout_.lines_before);
   while (lines.next()) {
     if (is_comment(lines.line())) continue;
-    const std::vector<std::string_view> cells = split(lines.line(), layout_.separator);
+    const std::vector<std::string_view> cells =
+        split(lines.line(layout_.separator), layout_.separator);
     if (cells.size() <= cells_[column]) return std::nullopt;
     const std::string_view cell = cells[cells_[column]];
     std::uint64_t value = 0;
@@ -366,6 +470,7 @@ std::optional<std::vector<std::uint64_t>> TextTable::integers(std::size_t column
 
 const char* separator_name(char separator) {
   if (separator == ',') return "commas";
+  if (separator == '\t') return "tabs";
   return separator == ';' ? "semicolons" : "white space";
 }
 

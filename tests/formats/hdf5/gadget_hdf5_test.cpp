@@ -147,32 +147,40 @@ TEST(GadgetHdf5, TruncatedFilesAreRefusedWithoutPrinting) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(GadgetHdf5, HeaderThatClaimsOtherNumbersOfParticlesIsRefused) {
+TEST(GadgetHdf5, RowsCountWhereTheHeaderClaimsOtherNumbersOfParticles) {
   const TemporaryFolder folder;
+  write_hdf5(folder / "right.hdf5", small_snapshot());
   for (const int change : {-1, 1, 1000000, -37}) {
     TestSnapshot snapshot = small_snapshot();
     snapshot.counts[0] = static_cast<std::uint32_t>(37 + change);
     write_hdf5(folder / "snap.hdf5", snapshot);
-    EXPECT_THAT(refusal(folder / "snap.hdf5"), HasSubstr("has 37 rows, but the header counts"))
-        << change;
+    const auto opened = open_snapshot(folder / "snap.hdf5");
+    expect_same_columns(*opened, *open_snapshot(folder / "right.hdf5"));
+    EXPECT_THAT(opened->info().notes, Contains(HasSubstr("has 37 rows: these count"))) << change;
   }
 }
 
-TEST(GadgetHdf5, ATypeWithoutPositionsIsRefused) {
+TEST(GadgetHdf5, ATypeWithoutPositionsOrGroupIsLeftOut) {
   const TemporaryFolder folder;
   TestSnapshot snapshot = small_snapshot();
   snapshot.block("POS").values[4].clear();
-  write_hdf5(folder / "snap.hdf5", snapshot);
-  EXPECT_THAT(refusal(folder / "snap.hdf5"),
-              AllOf(HasSubstr("no positions"), HasSubstr("11 particles of PartType4")));
-}
-
-TEST(GadgetHdf5, ATypeWithoutAGroupIsRefused) {
-  const TemporaryFolder folder;
-  TestSnapshot snapshot = small_snapshot();
   snapshot.counts[3] = 5;
   write_hdf5(folder / "snap.hdf5", snapshot);
-  EXPECT_THAT(refusal(folder / "snap.hdf5"), HasSubstr("PartType3, which has no datasets"));
+  const auto opened = open_snapshot(folder / "snap.hdf5");
+  EXPECT_EQ(opened->info().find_type(4), nullptr);
+  EXPECT_THAT(opened->info().notes,
+              AllOf(Contains(HasSubstr("11 particles, but it has no positions")),
+                    Contains(HasSubstr("5 particles, but there is no such group"))));
+}
+
+TEST(GadgetHdf5, OfTypesThatAreAllLeftOutIsRefused) {
+  const TemporaryFolder folder;
+  TestSnapshot snapshot = small_snapshot();
+  for (std::vector<double>& positions : snapshot.block("POS").values)
+    positions.clear();
+  write_hdf5(folder / "snap.hdf5", snapshot);
+  EXPECT_THAT(refusal(folder / "snap.hdf5"),
+              AllOf(HasSubstr("no positions"), HasSubstr("37 particles of PartType0")));
 }
 
 TEST(GadgetHdf5, FieldsOfOtherWidthsAreLeftOutWithANote) {
@@ -239,6 +247,8 @@ TEST(GadgetHdf5, SwiftWithoutItsKernelIsNoted) {
   const auto snapshot = open_snapshot(folder / "snap.hdf5");
   EXPECT_EQ(snapshot->info().format, "SWIFT HDF5");
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("Kernel gamma")));
+  EXPECT_FLOAT_EQ(snapshot->read(0, "smoothing_length")[0],
+                  static_cast<float>(small_snapshot().block("HSML").values[0][0] * 1.825742));
 }
 
 // The gas of `source`, as SWIFT writes it beside the parts of a snapshot.

@@ -2,6 +2,7 @@
 
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
@@ -9,6 +10,7 @@ namespace splotchcl {
 namespace {
 
 using namespace splotchcl::test;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -59,6 +61,20 @@ TEST_F(PlainHdf5, AxesOfTheirOwnAreJoined) {
   const auto snapshot = open_snapshot(path_);
   EXPECT_THAT(positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(7, 8));
+}
+
+TEST_F(PlainHdf5, SizesOfUnitsThatAttributesStateAreRead) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "Coordinates", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "Masses", {7, 8});
+    write_attribute(file, "Coordinates", "CGSConversionFactor", {3.085678e24});
+    write_attribute(file, "Masses", "to_cgs", {1.989e43});
+    write_attribute(file, "Masses", "h_scaling", {-1});
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(find_field(snapshot->info().types.front(), "position")->unit, "Mpc");
+  EXPECT_EQ(find_field(snapshot->info().types.front(), "mass")->unit, "1e10 M_sun h^-1");
 }
 
 TEST_F(PlainHdf5, FloatsAreTakenAsTheyAre) {
@@ -135,6 +151,69 @@ TEST_F(PlainHdf5, GroupsOfOtherNamesAreTypesInTheirOrder) {
   const auto snapshot = open_snapshot(path_);
   EXPECT_THAT(positions(*snapshot, 1), ElementsAre(7, 8, 9));
   EXPECT_THAT(snapshot->info().notes, Contains("the particles of /second are taken for type 1"));
+}
+
+// The same two particles at several times, as H5Part and others write them.
+void write_steps(const std::filesystem::path& path, const std::vector<std::string>& groups) {
+  const Hdf5Output file = create_hdf5(path);
+  double number = 0;
+  for (const std::string& group : groups) {
+    const std::array<const char*, 3> axes = {"/x", "/y", "/z"};
+    for (const char* axis : axes)
+      write_values(file, group + axis, {number, number + 1});
+    write_values(file, group + "/mass", {number, number});
+    write_attribute(file, group, "time", {number / 4});
+    ++number;
+  }
+}
+
+TEST_F(PlainHdf5, StepsInTimeAreNotDrawnTogether) {
+  for (const std::vector<std::string>& groups :
+       {std::vector<std::string>{"Step#0", "Step#2", "Step#10"},
+        {"0000", "0001", "0002"},
+        {"state_8", "state_9", "state_10"}}) {
+    write_steps(path_, groups);
+    const auto last = open_snapshot(path_);
+    ASSERT_EQ(last->info().types.size(), 1U);
+    EXPECT_THAT(values_of(last->read(0, "mass")), ElementsAre(2, 2));
+    EXPECT_EQ(last->info().time, 0.5);
+    EXPECT_THAT(last->info().notes, Contains(HasSubstr("3 steps in time, /" + groups[0])));
+    const auto second = open_snapshot(path_ / groups[1]);
+    EXPECT_THAT(values_of(second->read(0, "mass")), ElementsAre(1, 1));
+    EXPECT_EQ(second->info().time, 0.25);
+    EXPECT_EQ(second->info().files, std::vector<std::filesystem::path>{path_});
+  }
+}
+
+TEST_F(PlainHdf5, RecordsAndRowsOfOtherShapesAreRefusedForWhatTheyAre) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 2);
+    const Hdf5Handle<H5Tclose> record(H5Tcreate(H5T_COMPOUND, 8));
+    H5Tinsert(record.id(), "x", 0, H5T_NATIVE_DOUBLE);
+    const hsize_t rows = 4;
+    const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &rows, nullptr));
+    const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), "particles", record.id(), space.id(),
+                                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  }
+  EXPECT_THAT(refusal(path_), AllOf(HasSubstr("particles (4, no plain numbers), pos (3 x 2)"),
+                                    HasSubstr("one number or three in each row")));
+}
+
+TEST_F(PlainHdf5, AStepThatIsNotThereIsRefusedWithThoseThatAre) {
+  write_steps(path_, {"Step#0", "Step#1"});
+  EXPECT_THAT(refusal(path_ / "Step#2"), AllOf(HasSubstr("group Step#2"), HasSubstr("/Step#1")));
+  write_bytes(folder_ / "table", "x y z\n1 2 3\n4 5 6\n");
+  EXPECT_THAT(refusal(folder_ / "table" / "Step#0"), HasSubstr("without groups"));
+}
+
+TEST_F(PlainHdf5, NumbersOfOtherGroupsAreNoSteps) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "cloud_1/pos", {1, 2, 3}, 3);
+    write_values(file, "cloud_2/pos", {4, 5, 6}, 3);
+  }
+  EXPECT_EQ(open_snapshot(path_)->info().types.size(), 2U);
 }
 
 TEST_F(PlainHdf5, YtsNamesUnitsAndDomainAreUnderstood) {

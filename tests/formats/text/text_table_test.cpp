@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "formats/snapshot_checks.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
@@ -141,6 +142,106 @@ TEST_F(TextTable, UnitsInAHeaderOfWhiteSpaceBelongToTheNameBeforeThem) {
 TEST_F(TextTable, BracketsThatDoNotCloseAreNoUnits) {
   EXPECT_THAT(refusal_of("x [kpc y z\n1 2 3\n"), HasSubstr("text, but no table"));
   EXPECT_THAT(refusal_of("[ ( [\n1 2 3\n"), HasSubstr("no positions"));
+}
+
+TEST_F(TextTable, UnitsInAHeaderOfAstropyAreThoseOfTheColumns) {
+  const auto snapshot = open(
+      "# %ECSV 1.0\n# ---\n# datatype:\n# - {name: x, unit: kpc, datatype: float64}\n"
+      "# - {name: y, unit: kpc, datatype: float64}\n# - {name: z, unit: pc, datatype: float64}\n"
+      "# - {name: hsml, unit: pc, datatype: float64, description: 'unit: Mpc'}\n"
+      "# - {name: vx, unit: 'km / s', datatype: float64}\n# schema: astropy-2.0\n"
+      "x y z hsml vx\n1 2 3000 300 7\n5 6 7000 400 8\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.3F, 0.4F));
+  EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "kpc");
+  EXPECT_EQ(find_field(snapshot->info().types[0], "vx")->unit, "km / s");
+}
+
+TEST_F(TextTable, TheCommentWhoseWordsFitTheColumnsIsTheHeader) {
+  // As Rockstar, numpy.savetxt and TOPCAT have them.
+  for (const char* comments :
+       {"#ID Mvir X Y Z\n#a = 0.5\n#Om = 0.3; Ol = 0.7; h = 0.7\n",
+        "# ID Mvir X Y Z\n# five words that say nothing\n", "# made on a day\n# ID Mvir X Y Z\n"}) {
+    const auto snapshot = open(std::string(comments) + "9 5 1 2 3\n8 6 5 6 7\n");
+    EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << comments;
+    EXPECT_THAT(values_of(snapshot->read(0, "Mvir")), ElementsAre(5, 6)) << comments;
+  }
+}
+
+TEST_F(TextTable, NamesOfOtherProgramsAreUnderstood) {
+  // As AHF, ParaView and SPLASH have them.
+  for (const char* header :
+       {"#Mhalo(1)\tXc(2)\tYc(3)\tZc(4)\n", "Mhalo,Points:0,Points:1,Points:2\n",
+        "#    Mhalo           x       y              z\n"}) {
+    const std::string row = std::string(header).find(',') == std::string::npos
+                                ? "9 1 2 3\n8 5 6 7\n"
+                                : "9,1,2,3\n8,5,6,7\n";
+    const auto snapshot = open(header + row);
+    EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7)) << header;
+    EXPECT_THAT(values_of(snapshot->read(0, "Mhalo")), ElementsAre(9, 8)) << header;
+  }
+}
+
+TEST_F(TextTable, NamesMayHaveBlanksWhereTheyAreFarApart) {
+  const auto snapshot =
+      open("#     x        y       z    particle mass    h \n1 2 3 9 0.5\n5 6 7 8 0.25\n");
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(9, 8));
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.25F));
+}
+
+TEST_F(TextTable, NamesInColumnsOfSplashMayBeCut) {
+  const auto snapshot = open(
+      "# units:\n#  1.0000000E+00   1.0000000E+00   1.0000000E+00   1.0000000E+00   "
+      "1.0000000E+00\n#\n"
+      "#          x [au]          y [au]          z [au] particle mass [ density [g/cm^3\n"
+      "1 2 3 9 0.5\n5 6 7 8 0.25\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(9, 8));
+  EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(0.5F, 0.25F));
+  EXPECT_EQ(snapshot->info().types[0].fields[0].unit, "au");
+}
+
+TEST_F(TextTable, EachColumnMayHaveACommentOfItsOwn) {
+  const std::string header =
+      "# Particles for SKIRT\n# Column 1: position x (kpc)\n# Column 2: position y (kpc)\n"
+      "# Column 3: position z (kpc)\n# Column 4: smoothing length (pc)\n# Column 5: mass (Msun)\n";
+  const auto snapshot = open(header + "1 2 3 500 9\n5 6 7 250 8\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.25F));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(9, 8));
+  EXPECT_THAT(refusal_of(header + "1 2 3 4\n5 6 7 8\n"), HasSubstr("no positions"));
+}
+
+TEST_F(TextTable, CellsBetweenTabsMayBeEmpty) {
+  const auto snapshot = open("age\tx\ty\tz\tstar mass\th\n4\t1\t2\t3\t\t0.5\n\t5\t6\t7\t8\t\n");
+  EXPECT_EQ(snapshot->info().format, "text with tabs between columns");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_TRUE(std::isnan(snapshot->read(0, "star mass")[0]));
+  EXPECT_EQ(snapshot->read(0, "star mass")[1], 8);
+  EXPECT_EQ(snapshot->read(0, "age")[0], 4);
+  EXPECT_TRUE(std::isnan(snapshot->read(0, "age")[1]));
+  EXPECT_TRUE(std::isnan(snapshot->read(0, "h")[1]));
+}
+
+TEST_F(TextTable, LinesMayEndInAComma) {
+  const auto snapshot = open("x, y, z, particle mass,\n1, 2, 3, 9,\n5, 6, 7, 8,\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(1, 2, 3, 5, 6, 7));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(9, 8));
+}
+
+TEST_F(TextTable, CommasBetweenSemicolonsAreThoseOfNumbers) {
+  const auto snapshot =
+      open("Pos.x [m];Pos.y [m];Pos.z [m];Idp\n0,25;0,5;-1,75;7\n2;3e1;4,5e0;8\n");
+  EXPECT_THAT(positions_of_table(*snapshot), ElementsAre(0.25, 0.5, -1.75, 2, 30, 4.5));
+}
+
+TEST_F(TextTable, ALineThatCountsTheRowsIsNoParticle) {
+  const std::vector<std::string> names = {"x", "y", "z"};
+  const auto counted = open("2 0 2\n0.25 0.5 0.75\n1 2 3\n", names);
+  EXPECT_THAT(positions_of_table(*counted), ElementsAre(0.25, 0.5, 0.75, 1, 2, 3));
+  EXPECT_THAT(counted->info().notes, Contains(HasSubstr("line 1 is left out")));
+  EXPECT_EQ(open("3 0 2\n0.25 0.5 0.75\n1 2 3\n", names)->info().types[0].count, 3U);
+  EXPECT_EQ(open("2 0 0.5\n0.25 0.5 0.75\n1 2 3\n", names)->info().types[0].count, 3U);
 }
 
 TEST_F(TextTable, VectorsAreFoundByTheirAxes) {

@@ -1,0 +1,67 @@
+#include "formats/hdf5/hdf5_steps.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+#include "common/words.h"
+#include "snapshot/field_names.h"
+
+namespace splotchcl {
+namespace {
+
+struct NumberedName {
+  std::string stem;
+  std::string number;  // without leading zeros
+};
+
+NumberedName split_number(const std::string& name) {
+  const std::size_t last = name.find_last_not_of("0123456789");
+  const std::size_t digits = last == std::string::npos ? 0 : last + 1;
+  const std::size_t significant = std::min(name.find_first_not_of('0', digits), name.size());
+  return {name.substr(0, digits), digits == name.size() ? "" : "0" + name.substr(significant)};
+}
+
+bool is_stem_of_steps(const std::string& stem) {
+  constexpr std::array<const char*, 10> known = {"",     "step", "timestep", "time",  "snapshot",
+                                                 "snap", "t",    "frame",    "cycle", "output"};
+  const std::string word = lower_case(trimmed(stem, "#_-/. "));
+  return std::find(known.begin(), known.end(), word) != known.end();
+}
+
+bool states_time(const Hdf5File& file, const std::string& group) {
+  return file.number(group, "time") || file.number(group, "Time");
+}
+
+bool are_steps(const Hdf5File& file, const std::string& stem,
+               const std::vector<std::string>& groups) {
+  if (groups.size() < 2) return false;
+  return is_stem_of_steps(stem) ||
+         std::all_of(groups.begin(), groups.end(),
+                     [&](const std::string& group) { return states_time(file, group); });
+}
+
+bool is_before(const std::string& a, const std::string& b) {
+  const std::string x = split_number(a).number, y = split_number(b).number;
+  return x.size() != y.size() ? x.size() < y.size() : x < y;
+}
+
+}  // namespace
+
+std::vector<std::string> find_steps(const Hdf5File& file, const std::vector<std::string>& groups) {
+  std::map<std::string, std::vector<std::string>> by_stem;
+  for (const std::string& group : groups) {
+    const NumberedName name = split_number(group);
+    const bool may_be_step = !name.number.empty() && !find_particle_type(group.substr(1));
+    if (may_be_step) by_stem[name.stem].push_back(group);
+  }
+  for (auto& [stem, steps] : by_stem) {
+    if (!are_steps(file, stem, steps)) continue;
+    std::sort(steps.begin(), steps.end(), is_before);
+    return std::move(steps);
+  }
+  return {};
+}
+
+}  // namespace splotchcl
