@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "reference/frames.h"
-#include "scene/plan/brightness_guess.h"
-#include "scene/plan/ordered_guess.h"
-#include "scene/plan/width_guess.h"
+#include "scene/plan/guesses.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl::test {

@@ -1,8 +1,19 @@
 #pragma once
 
 #include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
 
+// What a plan expects of a frame before it is drawn, from a sample of its clouds.
 namespace splotchcl {
+
+// How many splats the whole picture has that could be stencils, from some of its particles; the
+// same for every crop. `narrowest`: of stencils, in pixels.
+WideSplats guess_wide_splats(const Frame& frame, double narrowest);
+
+// How bright a frame in which nothing absorbs is likely to be where it is brightest, over a
+// twentieth or so of its width, in units of white. A guess from some particles and the brightest
+// colors of their palettes, the same for every crop.
+double guess_brightness(const Frame& frame);
 
 // What an ordered frame is likely to be like, from some of its particles.
 struct OrderedGuess {
