@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "device/walk/relay.h"
 #include "device/walk/key_slices.h"
+#include "device/walk/relay.h"
 #include "reference/frames.h"
 
 namespace splotchcl::test {

@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 
-#include "scene/plan/guesses.h"
 #include "scene/plan/error_budget.h"
 #include "scene/plan/grid_pyramid.h"
+#include "scene/plan/guesses.h"
 #include "scene/plan/light_structure.h"
 #include "scene/plan/place_limits.h"
 #include "scene/plan/splat_limits.h"

@@ -1,3 +1,5 @@
+#include "scene/plan/guesses.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,7 +7,6 @@
 #include <vector>
 
 #include "reference/frames.h"
-#include "scene/plan/guesses.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl::test {
