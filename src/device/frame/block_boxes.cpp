@@ -32,7 +32,7 @@ BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
   const std::size_t count = ceil_divide(particles.count, p.block_particles);
   const auto boxes = device.pool.get<shared::BlockBox>(count, "boxes of blocks");
   Choices choices = lanes_of(device.traits.rows);
-  choices.emplace_back(has_own_colors ? "VECTOR_COLORS 1" : "VECTOR_COLORS 0");
+  choices.push_back(flag("VECTOR_COLORS", has_own_colors));
   const Program find_boxes =
       device.programs.get(program_source("kernels/project/boxes.cl", choices));
   Launch launch(device, "boxes", find_boxes.create_kernel("find_boxes"));

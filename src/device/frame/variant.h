@@ -65,6 +65,10 @@ struct Variant {
 // What a program is told beside its variant: "NAME" or "NAME value".
 using Choices = std::vector<std::string>;
 
+inline std::string flag(const std::string& name, bool is_set) {
+  return name + (is_set ? " 1" : " 0");
+}
+
 ProgramSource program_source(const std::string& file, const Choices& choices = {});
 ProgramSource program_source(const Variant& variant, const std::string& file,
                              const Choices& choices = {});

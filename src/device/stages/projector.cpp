@@ -242,17 +242,24 @@ void Projector::list_slots(SplatBlocks& blocks) const {
       first_splats(pool.download(blocks.counts, blocks.block_count));
   blocks.visible = first.back();
   blocks.order = pool.get<std::uint32_t>(blocks.visible, "slots of splats");
+  list_slots(blocks.stride, blocks.counts, first, {unused_, unused_, false}, blocks.order);
+}
+
+// Where the splats of all blocks lie, of which each one's first is number first[b] of them.
+void Projector::list_slots(std::uint32_t stride, const Buffer<shared::BlockCounts>& counts,
+                           const std::vector<std::uint32_t>& first, const MovedKeys& keys,
+                           const Buffer<std::uint32_t>& order) const {
   Launch launch(context_.device, "project",
                 context_.device.programs.get(program_source("kernels/project/compact.cl"))
                     .create_kernel("list_slots"));
-  launch.value(blocks.stride)
-      .value(cl_uint{0})
-      .arg(blocks.counts)
-      .arg(pool.upload(first, "block offsets"))
-      .arg(unused_)
-      .arg(unused_)
-      .arg(blocks.order);
-  run_by_blocks(launch, blocks.block_count);
+  launch.value(stride)
+      .value(static_cast<cl_uint>(keys.are_moved))
+      .arg(counts)
+      .arg(context_.device.pool.upload(first, "block offsets"))
+      .arg(keys.from)
+      .arg(keys.to)
+      .arg(order);
+  run_by_blocks(launch, first.size() - 1);
 }
 
 ParticleCounts Projector::count(const SplatBlocks& blocks, const ParticleChunk& chunk) const {
@@ -340,17 +347,7 @@ void Projector::put_keys_together(const Buffer<std::uint32_t>& keys,
   keyed.keys = std::move(sort_keys);
   keyed.scratch = std::move(scratch);
   keyed.order = pool.get<std::uint32_t>(most, "order");
-  Launch launch(context_.device, "project",
-                context_.device.programs.get(program_source("kernels/project/compact.cl"))
-                    .create_kernel("list_slots"));
-  launch.value(stride)
-      .value(cl_uint{1})
-      .arg(counts)
-      .arg(pool.upload(first_splats(found), "block offsets"))
-      .arg(keys)
-      .arg(keyed.keys)
-      .arg(keyed.order);
-  run_by_blocks(launch, found.size());
+  list_slots(stride, counts, first_splats(found), {keys, keyed.keys, true}, keyed.order);
 }
 
 KeyedSplats Projector::keyed_memory(std::uint32_t count) const {

@@ -57,7 +57,15 @@ class Projector {
                          const Buffer<shared::BlockCounts>& counts,
                          const std::vector<shared::BlockCounts>& found, std::uint32_t stride,
                          KeyedSplats& keyed) const;
+  // The upper bits of keys without the gaps between blocks, or none.
+  struct MovedKeys {
+    const Buffer<std::uint32_t>&from, &to;
+    bool are_moved;
+  };
   void list_slots(SplatBlocks& blocks) const;
+  void list_slots(std::uint32_t stride, const Buffer<shared::BlockCounts>& counts,
+                  const std::vector<std::uint32_t>& first, const MovedKeys& keys,
+                  const Buffer<std::uint32_t>& order) const;
   Filling filling_of_slots() const;
   std::vector<ChunkBlocks> chunks_around(const AllParticles& all,
                                          const std::vector<shared::BlockCounts>& found) const;

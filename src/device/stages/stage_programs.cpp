@@ -3,10 +3,6 @@
 namespace splotchcl {
 namespace {
 
-std::string flag(const std::string& name, bool is_set) {
-  return name + (is_set ? " 1" : " 0");
-}
-
 // Lists are counted with sums alone, and on processors.
 Choices choices_of(ProjectOutput output, bool counts_tiles) {
   return {flag("OUTPUT_SPLATS", output != ProjectOutput::key_counts),

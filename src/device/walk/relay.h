@@ -45,10 +45,8 @@ class Relay {
   // What the slice before has passed, into the first `count` slots.
   void take_splats(std::size_t round, const SplatMemory& splats, std::uint32_t count);
 
-  // What compositing goes on with: planes, what the check needs, and the slab that has begun.
-  void send(const SplatLight& light, const SlabLight& slab, int to) const;
-  SplatLight receive(const SlabLight& slab, int from) const;
-  // To the next rank of this round and from the one before.
+  // What compositing goes on with: planes, what the check needs, and the slab that has begun. To
+  // the next rank of this round and from the one before.
   void send_on(const SplatLight& light, const SlabLight& slab) const;
   SplatLight receive_light(const SlabLight& slab) const;
   // Of the last slice, to the first rank.
@@ -56,6 +54,8 @@ class Relay {
 
  private:
   int rank_before() const;
+  void send(const SplatLight& light, const SlabLight& slab, int to) const;
+  SplatLight receive(const SlabLight& slab, int from) const;
   void send_splats(int to) const;
 
   const StageContext& context_;

@@ -73,7 +73,7 @@ void SplatSlices::count_keys() {
   const CountedKeys counted = count_everywhere({}, shift_of_all_keys);
   counts_ = counter_.particles();
   own_around_ = counts_.around;
-  blocks_around_ = all_blocks(counter_.chunks(), context_.device.traits);
+  if (own_around_ > 0) blocks_around_ = all_blocks(counter_.chunks(), context_.device.traits);
   left_out_ = counter_.left_out();
   add_up(ranks_.all,
          {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around, &left_out_});
