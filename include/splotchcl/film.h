@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "splotchcl/frame_drawer.h"
+#include "splotchcl/tree_use.h"
 
 namespace splotchcl {
 
@@ -20,8 +21,9 @@ struct FilmOptions {
   std::string device;                 // as in FrameDrawerOptions
   bool by_reference = false;
   std::uint64_t memory_bytes = 0;  // as in RendererOptions
-  std::string frames;              // FIRST:END:STEP; empty: all of the path
-  std::string part;                // K/N, the K-th of N runs of frames; empty: all
+  TreeUse tree = TreeUse::automatic;
+  std::string frames;  // FIRST:END:STEP; empty: all of the path
+  std::string part;    // K/N, the K-th of N runs of frames; empty: all
   // A file that the caller writes in the end, if any: refused where it is read, or is the film's.
   std::optional<std::filesystem::path> stats;
   bool only_join = false;  // makes the film of frames that are drawn already

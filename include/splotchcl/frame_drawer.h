@@ -13,10 +13,20 @@
 #include "splotchcl/image_file.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"
+#include "splotchcl/tree_use.h"
 
 namespace splotchcl {
 
 class OtherScenes;
+
+// What a picture took that was drawn from a tree; all 0 where none was.
+struct TreeStats {
+  std::uint64_t nodes = 0, particles = 0;  // drawn
+  std::uint64_t visited = 0;               // nodes that were looked at
+  int cuts = 0;                            // that were drawn until one served
+  int verified_blocks = 0;
+  double found = 0;  // the largest error there, over what is promised: an estimate
+};
 
 // What draws, and whom to tell how far it is.
 struct FrameDrawerOptions {
@@ -34,6 +44,7 @@ struct FrameDrawerOptions {
   // The device is opened while the caller goes on. What is wrong with it is thrown by the first
   // draw(), not by the constructor. Not with ranks.
   bool opens_later = false;
+  TreeUse tree = TreeUse::automatic;
 };
 
 // One frame of a scene, drawn, and what is to be told of it.
@@ -45,6 +56,7 @@ struct DrawnFrame {
   // Of all drawings together that the pictures are made of (eyes, faces, insets): seconds add up,
   // and what is counted is the largest, since they share their particles.
   RenderStats stats;
+  TreeStats tree;
   std::vector<std::string> notes;  // what the user should know, a line each
   // One such line about particles that were left out for their bad values, if there were some.
   std::optional<std::string> bad_particles;

@@ -51,6 +51,11 @@ struct KernelSettings {
   // h in pixels becomes h' = sqrt(h^2 + min_radius^2) and the weight is multiplied by
   // h / h', so small clouds gain light, as in the original. >= 0; 0: off.
   double min_radius_pixels = 0;
+  // What a pixel sees beside its own square: the cloud is spread by a Gaussian of this standard
+  // deviation, sigma'^2 = sigma^2 + 2 footprint^2, and keeps its light. >= 0; 0: the square alone.
+  // Not together with min_radius_pixels. In panoramas it is a part of the sphere as wide as the
+  // equator's pixels.
+  double footprint_pixels = 0;
 };
 
 // Which particle lies in front. Nearest first; equal keys stay in component and file

@@ -95,6 +95,8 @@ struct ParticleBoxes {
   ParticleBox around(std::size_t first, std::size_t end) const;
 };
 
+class TreeOfComponent;
+
 // The particles of one component: structure of arrays, as the device takes them. Columns are
 // arrays of `count` values, or as said, or uniform where one value serves all. Only what the
 // scene needs is present. Lengths, masses and densities are in the snapshot's units. A particle
@@ -113,6 +115,8 @@ struct Particles {
   Column intensity;                            // the intensity field before scaling; absent: 1
   Column sort_field;                           // only when the scene sorts by a field
   std::shared_ptr<const ParticleBoxes> boxes;  // null: not known
+  // The same particles, merged (docs/tree.md); null: there is no tree, or it serves no such scene.
+  std::shared_ptr<const TreeOfComponent> tree;
 
   // All of them, present or not.
   std::array<const Column*, 7> columns() const {

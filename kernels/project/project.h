@@ -101,10 +101,11 @@ struct ProjectParameters {
   struct DepthKeyParameters depth_key;
 
   float size_factor;
-  float kernel_width;  // sigma = kernel_width * h
-  float sigma_per_h;   // and of h as it is stored, without size_factor, in one rounding
-  float kernel_cut;    // in sigma; 0: uncut
-  float min_radius;    // pixels
+  float kernel_width;     // sigma = kernel_width * h
+  float sigma_per_h;      // and of h as it is stored, without size_factor, in one rounding
+  float kernel_cut;       // in sigma; 0: uncut
+  float min_radius;       // pixels
+  float footprint_sigma;  // of kernel.footprint, sqrt(2) of it; pixels
   // On a face of a cube, what a pixel adds to sigma^2, and what it makes of it at least; 0 and 0
   // where it takes the value at its center (src/scene/projection.h, FaceEllipse).
   float footprint, narrowest_squared;
@@ -194,7 +195,7 @@ struct ExtendedParameters {
   struct FloatPair center_from_middle_x, center_from_middle_y;
   struct FloatPair period, eye_offset, turn_axis[3];  // as in ProjectParameters
   struct FloatPair twice_pole[2];                     // in the whole picture
-  struct FloatPair size_factor, kernel_width, min_radius;
+  struct FloatPair size_factor, kernel_width, min_radius, footprint_sigma;
   int is_cut;
   struct FloatPair kernel_cut;
   float reach_of_mean;            // in pixels, by which a pixel sees a splat from beside its center

@@ -105,12 +105,15 @@ static inline void extended_width(float raw, Extended h, Extended scale, const P
         extended_sum(extended_product(h_pixels, h_pixels), extended_product(least, least)));
     *weight = extended_product(extended_column(raw, h, p, e), extended_quotient(h_pixels, h_drawn));
     *sigma = extended_product(width, h_drawn);
-  } else if (high_part(*sigma) < NARROWEST_EXTENDED_SIGMA) {
-    const Extended narrowest = extended_of(NARROWEST_EXTENDED_SIGMA);
-    const Extended widened = extended_quotient(narrowest, extended_product(width, scale));
+  } else if (p.footprint_sigma > 0.0f || high_part(*sigma) < NARROWEST_EXTENDED_SIGMA) {
+    const Extended footprint = extended_pair(e.footprint_sigma);
+    Extended drawn = extended_root(
+        extended_sum(extended_product(*sigma, *sigma), extended_product(footprint, footprint)));
+    if (high_part(drawn) < NARROWEST_EXTENDED_SIGMA) drawn = extended_of(NARROWEST_EXTENDED_SIGMA);
+    const Extended widened = extended_quotient(drawn, extended_product(width, scale));
     *weight = extended_weight_of_widened(extended_column(raw, widened, p, e),
-                                         extended_quotient(*sigma, narrowest), p);
-    *sigma = narrowest;
+                                         extended_quotient(*sigma, drawn), p);
+    *sigma = drawn;
   } else {
     *weight = extended_column(raw, h, p, e);
   }

@@ -32,12 +32,13 @@ typedef struct SplatLanes {
 
 // Widths in the picture's pixels, before any pixel mean is taken.
 typedef struct WidthLanes {
-  VALUE h;                  // in lengths
-  VALUE sigma_true, sigma;  // without and with kernel.min_radius and NARROWEST_SIGMA
-  VALUE sigma_x;            // of a panorama
-  VALUE nearer;             // by which it lies nearer to the pole there
-  FaceEllipse face;         // on a face of a cube
-  VALUE part;               // face_part()
+  VALUE h;  // in lengths
+  // Without and with kernel.min_radius, kernel.footprint and NARROWEST_SIGMA.
+  VALUE sigma_true, sigma;
+  VALUE sigma_x;     // of a panorama
+  VALUE nearer;      // by which it lies nearer to the pole there
+  FaceEllipse face;  // on a face of a cube
+  VALUE part;        // face_part()
 } WidthLanes;
 
 // As they are drawn, along y and x, and of the narrower side.
@@ -56,9 +57,9 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
   WidthLanes widths;
   widths.h = raw_h * p.size_factor;
   widths.sigma_true = p.sigma_per_h * raw_h * view.scale;
-  const float sigma_floor = p.kernel_width * p.min_radius;
-  const VALUE sigma = p.min_radius > 0.0f
-                          ? sqrt(widths.sigma_true * widths.sigma_true + sigma_floor * sigma_floor)
+  const float widened_by = max(p.kernel_width * p.min_radius, p.footprint_sigma);  // one is 0
+  const VALUE sigma = widened_by > 0.0f
+                          ? sqrt(widths.sigma_true * widths.sigma_true + widened_by * widened_by)
                           : widths.sigma_true;
   widths.sigma = max(sigma, (VALUE)(NARROWEST_SIGMA));
   if (FACE_OF_CUBE) {
@@ -96,6 +97,10 @@ INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widt
              (view.scale / widths.sigma);
     }
     return column_weight(raw, widths.h, p) * (widths.sigma_true / widths.sigma);
+  }
+  if (p.footprint_sigma > 0.0f) {
+    const VALUE widened = column_weight(raw, widths.sigma / (p.kernel_width * view.scale), p);
+    return weight_of_widened(widened, widths.sigma_true / widths.sigma, p);
   }
   const INTEGER narrow = widths.sigma_true < NARROWEST_SIGMA;
   if (!ANY(narrow)) return column_weight(raw, widths.h, p);

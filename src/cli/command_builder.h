@@ -47,6 +47,7 @@ CLI::App* add_command(CLI::App& app, Run& run, const char* name, const char* des
 // scenes may use.
 void add_info(CLI::App& app, Run& run, Console& console);
 void add_index(CLI::App& app, Run& run, Console& console);
+void add_tree(CLI::App& app, Run& run, Console& console);
 void add_fields(CLI::App& app, Run& run, Console& console);
 void add_palettes(CLI::App& app, Run& run, Console& console);
 

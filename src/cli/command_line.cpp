@@ -47,6 +47,19 @@ const CLI::Validator shape_by_name(
     },
     "");
 
+const std::map<std::string, TreeUse> tree_names = {
+    {"auto", TreeUse::automatic}, {"never", TreeUse::never}, {"only", TreeUse::only}};
+
+// From its name to its number.
+const CLI::Validator tree_by_name(
+    [](std::string& name) {
+      const auto use = tree_names.find(CLI::detail::to_lower(name));
+      if (use == tree_names.end()) return "found " + name + ", expected auto, never or only";
+      name = std::to_string(static_cast<int>(use->second));
+      return std::string();
+    },
+    "");
+
 // Without it -1 is read as the largest number that there is.
 const CLI::Validator not_negative(
     [](const std::string& number) {
@@ -83,6 +96,13 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_flag(
       "--reference", options.reference,
       wrapped("Draw with the slow reference renderer in double precision instead of a device"));
+  sub.add_option(
+         "--tree", options.tree,
+         wrapped("When to draw from the tree of merged particles that splotchcl tree wrote: "
+                 "auto, where it pays, never, or only. Its tolerance is an estimate, checked "
+                 "on blocks of every picture. Default: auto"))
+      ->transform(tree_by_name)
+      ->type_name("WHEN");
   sub.add_flag("--explain", options.explain,
                wrapped("Print the plan, the memory and time it needs, and the complete scene file; "
                        "draw nothing unless --output is given"));
@@ -386,6 +406,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   add_path(app, run, console);
   add_info(app, run, console);
   add_index(app, run, console);
+  add_tree(app, run, console);
   add_fields(app, run, console);
   add_palettes(app, run, console);
   add_compare(app, run, console);

@@ -10,6 +10,7 @@
 #include "splotchcl/galaxy.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/renderer.h"
+#include "splotchcl/tree_use.h"
 
 // What a user asks of each command, and what carries it out. A command's answer goes to
 // standard output, everything else through the console. The result is the exit code.
@@ -25,6 +26,7 @@ struct DrawOptions {
   std::optional<int> every, max_particles;
   bool cache_smoothing_lengths = false;
   bool reference = false;
+  TreeUse tree = TreeUse::automatic;
   bool explain = false;
   std::uint64_t memory_bytes = 0;  // 0: as much as the device has room for
   std::optional<std::filesystem::path> stats;
@@ -104,6 +106,14 @@ struct IndexOptions {
   std::filesystem::path snapshot;
 };
 int run_index(const IndexOptions& options, Console& console);
+
+struct TreeCommandOptions {
+  std::filesystem::path snapshot;
+  std::vector<int> types;           // none: all
+  std::vector<std::string> fields;  // none: those that a first picture of the types uses
+  unsigned least = 4;
+};
+int run_tree(const TreeCommandOptions& options, Console& console);
 
 struct PalettesOptions {
   std::vector<std::string> names;  // or files; none: all

@@ -118,6 +118,17 @@ Json finish_to_json(const std::optional<FinishSettings>& finish) {
   return {{"exposure", *finish->exposure}, {"white", *finish->white}};
 }
 
+// Nothing where the particles were drawn.
+Json tree_to_json(const TreeStats& tree) {
+  if (tree.cuts == 0) return nullptr;
+  return {{"nodes", tree.nodes},
+          {"particles", tree.particles},
+          {"visited", tree.visited},
+          {"cuts", tree.cuts},
+          {"verified_blocks", tree.verified_blocks},
+          {"found_of_promise", tree.found}};
+}
+
 Json to_json(const RenderReport& report) {
   const Frame& frame = report.frame;
   return {{"version", SPLOTCHCL_VERSION},
@@ -131,6 +142,7 @@ Json to_json(const RenderReport& report) {
           {"plan", plan_to_json(report.plan)},
           {"finish", finish_to_json(report.finish)},
           {"check", check_to_json(report.stats.check)},
+          {"tree", tree_to_json(report.tree)},
           {"renderer", report.reference ? "reference" : "device"},
           {"device", report.stats.device},
           {"particles", particles_to_json(report.stats)},

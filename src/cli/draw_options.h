@@ -9,6 +9,7 @@
 #include "splotchcl/film.h"
 #include "splotchcl/finish.h"
 #include "splotchcl/frame.h"
+#include "splotchcl/frame_drawer.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene.h"
@@ -27,6 +28,7 @@ struct RenderReport {
   Frame frame;
   FramePlan plan;
   RenderStats stats;
+  TreeStats tree;
   std::optional<FinishSettings> finish;  // as DrawnFrame has it
   double read_seconds = 0, draw_seconds = 0, write_seconds = 0;
 };

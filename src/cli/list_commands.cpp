@@ -57,6 +57,38 @@ void add_index(CLI::App& app, Run& run, Console& console) {
       "  splotchcl index huge_snapshot.0.hdf5");
 }
 
+void add_tree(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<TreeCommandOptions>();
+  CLI::App* const sub = add_command<TreeCommandOptions>(
+      app, run, "tree", "Write a tree of merged particles, so that many draw as fast as few",
+      options, [&console](const TreeCommandOptions& o) { return run_tree(o, console); });
+  sub->add_option("SNAPSHOT", options->snapshot,
+                  wrapped("A snapshot; for a set of files, any one of them"))
+      ->required();
+  sub->add_option("--types", options->types, wrapped("Particle types. Default: all"))
+      ->type_name("N,...")
+      ->delimiter(',');
+  sub->add_option("--fields", options->fields,
+                  wrapped("Fields to color by, at most four, which all these types have. Default: "
+                          "what a first picture uses"))
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  sub->add_option(
+         "--least", options->least,
+         wrapped("Particles of a node at least, 2 to 32. Default: 4; 8 takes half the room "
+                 "and serves less exact pictures as well"))
+      ->type_name("N")
+      ->check(CLI::Range(2, 32));
+  sub->footer(
+      "Writes SNAPSHOT.splotchcl_tree, some 10 bytes per particle. Scenes with kernel.footprint "
+      "are\n"
+      "drawn from it where many particles lie over a pixel; --tree of render and movie says when.\n"
+      "The tree is ignored once a file of the snapshot has changed.\n"
+      "Example:\n"
+      "  splotchcl tree huge_snapshot.0.hdf5\n"
+      "  splotchcl render huge_snapshot.0.hdf5 --set kernel.footprint=0.5 --tolerance 0.01");
+}
+
 void add_fields(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<SnapshotQuestion>();
   CLI::App* const sub = add_command<SnapshotQuestion>(

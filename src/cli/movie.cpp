@@ -118,6 +118,7 @@ FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Comm
   film.device = options.device;
   film.by_reference = options.reference;
   film.memory_bytes = options.memory_bytes;
+  film.tree = options.tree;
   film.frames = options.frames;
   film.part = options.part;
   film.only_join = options.join;

@@ -174,6 +174,7 @@ FrameDrawerOptions drawer_options(const RenderOptions& options,
                                options.shape,          false,
                                options.memory_bytes};
   of_drawer.ranks = ranks;
+  of_drawer.tree = options.tree;
   of_drawer.opens_later = !ranks;
   of_drawer.start_compiler = compiler_processes(ranks);
   return of_drawer;
@@ -248,6 +249,7 @@ int run_render(const RenderOptions& options, Console& console) {
       [&] { return drawer->draw(source.scene, report.frame, source.snapshot->info()); });
   agree(ranks.get(), [&] { inputs.check_in_place(); });
   report.stats = drawn.stats;
+  report.tree = drawn.tree;
   report.finish = drawn.finish;
   for (const std::string& note : drawn.all_notes())
     console.note(note);

@@ -8,6 +8,7 @@
 
 #include "between/interpolation.h"
 #include "load/component_boxes.h"
+#include "load/component_tree.h"
 #include "load/passes.h"
 #include "parallel/available_memory.h"
 #include "ranks/rank_pass.h"
@@ -300,6 +301,17 @@ Column ComponentFields::smoothing_lengths() const {
                      [](const TypeFields& type) { return type.smoothing_lengths(); });
   }
   return scalars(component_.size_field, "size.field");
+}
+
+std::shared_ptr<const TreeOfComponent> ComponentFields::tree(WeightModel weight) const {
+  const std::string stale = tell_stale_tree(snapshot_);
+  if (!stale.empty()) note(stale);
+  std::vector<int> types;
+  for (std::size_t t = 0; t < types_.size(); ++t) {
+    if (selected_[t] || spread_) return nullptr;
+    types.push_back(types_[t].info().type);
+  }
+  return component_tree(component_, snapshot_, types, weight);
 }
 
 std::shared_ptr<const ParticleBoxes> ComponentFields::boxes() const {

@@ -65,6 +65,9 @@ class ComponentFields {
   // Around positions(), in blocks of particles; null where no index beside the snapshot tells.
   std::shared_ptr<const ParticleBoxes> boxes() const;
 
+  // The same particles, merged, for such weights; null where no tree beside the snapshot has them.
+  std::shared_ptr<const TreeOfComponent> tree(WeightModel weight) const;
+
   // Adds "component NAME: text" to the notes.
   void note(const std::string& text) const;
   // For messages: the component's name, or its number where it has none.

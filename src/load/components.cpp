@@ -131,6 +131,7 @@ DrawnComponent ComponentReader::drawn(WeightModel weight) {
   particles.smoothing_length = fields_.smoothing_lengths();
   particles.weight = fields_.with_factors(weights(weight));
   particles.boxes = fields_.boxes();
+  particles.tree = fields_.tree(weight);
   particles.color = color();
   if (!component_.color_vector.empty()) {
     particles.color_vector = fields_.vectors(component_.color_vector, "color.vector");

@@ -14,6 +14,7 @@
 #include "finish/finish_picture.h"
 #include "image/background_image.h"
 #include "load/component_fields.h"
+#include "load/component_tree.h"
 #include "load/components.h"
 #include "load/passes.h"
 #include "load/periodic.h"
@@ -215,6 +216,8 @@ const DrawnComponent& FrameLoader::read(Part& part, WeightModel weight, const Ve
   DrawnComponent drawn = part.reader.drawn(weight);
   if (periodic_box_ && is_in_the_box(part.reader.component())) {
     wrap_around(look_at, *periodic_box_, drawn.particles, has_shared_passes(snapshot_));
+    if (drawn.particles.tree)
+      drawn.particles.tree = wrapped_tree(*drawn.particles.tree, look_at, *periodic_box_);
   }
   if (drawn.particles.boxes) {
     for (const Column* const column : drawn.particles.columns())

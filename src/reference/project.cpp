@@ -138,15 +138,27 @@ void put_on_face(Splat& splat, const Projected& place, const Frame& frame) {
                    ellipse.squared_width, ellipse.footprint, ellipse.secant2};
 }
 
+// kernel.min_radius takes light from columns by their widths' ratio, kernel.footprint by that of
+// their areas, which keeps light.
+struct Widened {
+  double sigma = 0, column = 1;
+};
+Widened widened_splat(double sigma, const KernelSettings& kernel) {
+  const double least = std::hypot(sigma, kernel.width * kernel.min_radius_pixels);
+  const double spread2 = 2 * kernel.footprint_pixels * kernel.footprint_pixels;
+  const double widened2 = least * least + spread2;
+  return {std::sqrt(widened2), (sigma / least) * (least * least / widened2)};
+}
+
 Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnComponent& component,
                const Frame& frame) {
   const double h_pixels = h * place.pixels_per_length;
-  const double h_drawn = std::hypot(h_pixels, frame.kernel.min_radius_pixels);
+  const Widened widened = widened_splat(frame.kernel.width * h_pixels, frame.kernel);
 
   Splat splat;
   splat.x = place.x;
   splat.y = place.y;
-  splat.sigma = frame.kernel.width * h_drawn;
+  splat.sigma = widened.sigma;
   if (frame.projection == Projection::equirectangular) {
     const PanoramaEllipse ellipse = panorama_ellipse(place, splat.sigma, frame.camera);
     splat.y = ellipse.y;
@@ -155,7 +167,7 @@ Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnC
   if (frame.projection == Projection::cube) put_on_face(splat, place, frame);
   const double w = column_through_center(component.weight, static_cast<double>(p.weight), h,
                                          frame.kernel.width * h);
-  splat.weight = w / component.reference_column * (h_pixels / h_drawn);
+  splat.weight = w / component.reference_column * widened.column;
   // An absent intensity is 1 without being scaled.
   if (!component.particles.intensity.is_absent()) {
     splat.weight *= normalized(static_cast<double>(p.intensity), component.intensity);
@@ -195,11 +207,11 @@ Splat splat_around(const Particle& p, const Vec3& from, double h, const DrawnCom
   splat.is_around = true;
   // On a face of a cube splats are what rays find, too.
   splat.ray_part = frame.projection == Projection::cube ? 1 : ray_part(std::sqrt(distance2));
-  const double h_pixels = place ? h * place->pixels_per_length : 0;
-  // A width below min_radius takes light away, as from splats.
-  splat.splat_part = place ? (1 - splat.ray_part) *
-                                 (h_pixels / std::hypot(h_pixels, frame.kernel.min_radius_pixels))
-                           : 0;
+  // What widens splats takes away from their columns.
+  splat.splat_part = place
+                         ? (1 - splat.ray_part) *
+                               widened_splat(sigma * place->pixels_per_length, frame.kernel).column
+                         : 0;
   return splat;
 }
 

@@ -139,6 +139,7 @@ Particles picked_particles(const Particles& particles, const std::vector<std::ui
   Particles some = particles;
   some.count = places.size();
   some.boxes = nullptr;
+  some.tree = nullptr;
   for (Column* const column : {&some.position, &some.color_vector})
     *column = picked(*column, 3, places);
   for (Column* const column :

@@ -74,6 +74,22 @@ inline double central_column(WeightModel model, double value, double h, double s
   return 0;
 }
 
+// kernel.footprint as a width: exp(-r^2 / sigma^2) has a standard deviation of sigma / sqrt(2).
+inline double footprint_sigma(const KernelSettings& kernel) {
+  return std::sqrt(2.0) * kernel.footprint_pixels;
+}
+
+// What kernel.min_radius and kernel.footprint make of a cloud of a width in pixels.
+struct DrawnWidth {
+  double sigma = 0;   // pixels
+  double column = 1;  // its central column is multiplied by this
+};
+inline DrawnWidth drawn_width(double sigma, const KernelSettings& kernel) {
+  const double least = std::hypot(sigma, kernel.width * kernel.min_radius_pixels);
+  const double drawn = std::hypot(least, footprint_sigma(kernel));
+  return {drawn, sigma / drawn * (least / drawn)};
+}
+
 // A power of two near 1 / the look-at distance: lengths times it keep sigma^2 inside single
 // precision, whatever the snapshot's unit.
 inline double length_scale(const Frame& frame) {

@@ -73,6 +73,13 @@ void check_scale_bar(const Scene& scene, const Origins& origins) {
          "camera.projection \"perspective\" or \"orthographic\", or no scale bar");
 }
 
+void check_kernel(const KernelSettings& kernel, const Origins& origins) {
+  if (kernel.footprint_pixels == 0 || kernel.min_radius_pixels == 0) return;
+  refuse(origins.at("kernel.footprint"), "kernel.footprint",
+         write_number(kernel.footprint_pixels) + " beside kernel.min_radius",
+         "only one of the two: the first keeps light, the second adds to it");
+}
+
 void check_sort(const SortOrder& sort, const Origins& origins) {
   if (sort.by == SortOrder::By::depth) return;
   if (sort.field.empty() || sort.field == "depth") {
@@ -243,6 +250,7 @@ void check_scene(const Scene& scene, const Origins& origins) {
   if (scene.camera) check_camera(scene, origins);
   if (scene.stereo) check_two_eyes(scene, origins);
   check_scale_bar(scene, origins);
+  check_kernel(scene.kernel, origins);
   check_sort(scene.sort, origins);
   check_path(scene.path, origins);
   check_time(scene, origins);

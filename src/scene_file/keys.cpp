@@ -217,6 +217,12 @@ Keys kernel_keys() {
           {"h becomes h' = sqrt(h^2 + min_radius^2) in pixels and the column is multiplied by "
            "h/h', as in the original program.",
            "pixels"}),
+      written_if_set(key(
+          "kernel.footprint", number(between(0, 1e3)), &KernelSettings::footprint_pixels,
+          {"Standard deviation of a Gaussian by which every cloud is spread, keeping its light: "
+           "stars do not twinkle in flights, and merged particles (tree.md) are true. 0.5 is what "
+           "film renderers use. Not together with `min_radius`.",
+           "pixels"})),
   };
 }
 

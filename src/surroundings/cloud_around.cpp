@@ -168,10 +168,9 @@ CloudAround cloud_around(const DrawnComponent& component, const Frame& frame, st
   set_amplitudes(component, i, weight, cloud);
   if (cloud.ray == 1) return cloud;
   if (const auto projected = project_point(place, frame.camera, frame.projection)) {
-    const double h_pixels = h * projected->pixels_per_length;
-    const double h_drawn = std::hypot(h_pixels, frame.kernel.min_radius_pixels);
-    cloud.splat = (1 - cloud.ray) * (h_pixels / h_drawn);
-    set_splats(*projected, frame.kernel.width * h_drawn, frame, cloud);
+    const DrawnWidth drawn = drawn_width(sigma * projected->pixels_per_length, frame.kernel);
+    cloud.splat = (1 - cloud.ray) * drawn.column;
+    set_splats(*projected, drawn.sigma, frame, cloud);
   }
   return cloud;
 }

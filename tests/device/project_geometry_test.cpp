@@ -247,6 +247,12 @@ TEST_P(ProjectGeometry, WidthsFollowTheSmallestRadius) {
   expect_centers_and_widths(frame);
 }
 
+TEST_P(ProjectGeometry, WidthsFollowTheFootprint) {
+  Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 8);
+  frame.kernel.footprint_pixels = 0.5;
+  expect_centers_and_widths(frame);
+}
+
 // Roundings of w: sigma in world units 3, squared by two divisions of 5 each; the scale of
 // weights 2; for the narrowing the square of sigma / sigma', each within its bound; the
 // normalised intensity 4, of a value of at least 0.1 of its range; products 4.
@@ -254,14 +260,26 @@ double weight_bound(const Expected& e) {
   return unit * (2 * 3 + 2 * 5 + 2 + 2 * 5 + 4 / 0.1 + 4) + 4 * width_bound(e);
 }
 
+// Each with kernel.min_radius, and with kernel.footprint.
+std::vector<std::pair<WeightModel, bool>> all_pairs(std::initializer_list<WeightModel> models) {
+  std::vector<std::pair<WeightModel, bool>> pairs;
+  for (const WeightModel model : models) {
+    pairs.emplace_back(model, true);
+    pairs.emplace_back(model, false);
+  }
+  return pairs;
+}
+
 TEST_P(ProjectGeometry, WeightsAreTheOraclesInEveryModel) {
-  for (const WeightModel model : {WeightModel::mass, WeightModel::density, WeightModel::constant}) {
+  const auto models = {WeightModel::mass, WeightModel::density, WeightModel::constant};
+  for (const auto& [model, is_widened] : all_pairs(models)) {
     Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 9);
     DrawnComponent& component = frame.components.front();
     component.weight = model;
     component.reference_column = 3.7;
     component.size_factor = 1.3;
-    frame.kernel.min_radius_pixels = 0.4;
+    frame.kernel.min_radius_pixels = is_widened ? 0.4 : 0;
+    frame.kernel.footprint_pixels = is_widened ? 0 : 0.4;
     Random random(10);
     std::vector<float> intensities;
     for (std::size_t i = 0; i < component.particles.count; ++i)

@@ -163,5 +163,15 @@ TEST(MinimumRadius, WidensSmallCloudsAndLowersTheirWeight) {
   EXPECT_NEAR(splats[0].weight, 0.6, 1e-6);
 }
 
+// sigma 3 becomes 5, so that the area grows 25 / 9 times.
+TEST(Footprint, WidensCloudsAndKeepsTheirLight) {
+  Frame frame = frame_of(8, 8, {emitting({Cloud{0, 0, 1, 3, 1}})});
+  frame.kernel.footprint_pixels = std::sqrt(8.0);
+  const auto splats = reference::project(frame);
+  ASSERT_EQ(splats.size(), 1u);
+  EXPECT_NEAR(splats[0].sigma, 5, 1e-12);
+  EXPECT_NEAR(splats[0].weight, 0.36, 1e-6);
+}
+
 }  // namespace
 }  // namespace splotchcl

@@ -4,6 +4,7 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
+#include "scene/particle_rules.h"
 #include "surroundings/cloud_around.h"
 
 namespace splotchcl {
@@ -46,7 +47,7 @@ void ViewBounds::add_edges(const Frame& frame, const shared::ProjectParameters& 
   const double f = static_cast<double>(p.pixels_per_length);
   // In extended precision ten sigma and some roundings are looked at.
   const double reach = 1.01 * std::max(static_cast<double>(p.reach), 10.0);
-  const double least_sigma = frame.kernel.width * frame.kernel.min_radius_pixels + 1e-5;
+  const double least_sigma = drawn_width(0, frame.kernel).sigma + 1e-5;
   const double pixels = reach * least_sigma + 6 + 1e-3 * (frame.width + frame.height);
   const auto edge = [&](const Vec3& across, double center_to_edge) {
     const double room = center_to_edge + pixels;

@@ -68,6 +68,7 @@ shared::ExtendedParameters make_extended_parameters(const StageContext& context,
   e.reach_of_mean = takes_pixel_means(frame) ? 0.5f : 0;
   e.sums_emission = context.plan.light == LightPlan::emission;
   e.min_radius = pair_of(frame.kernel.min_radius_pixels);
+  e.footprint_sigma = pair_of(footprint_sigma(frame.kernel));
   e.weight_scale = pair_of(weight_scale(component, length_scale(frame)));
   e.color = pairs_of(color_scaling(component));
   e.intensity = pairs_of(intensity_scaling(component));

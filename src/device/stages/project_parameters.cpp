@@ -256,6 +256,7 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   p.sigma_per_h = static_cast<float>(frame.kernel.width * frame.components[component].size_factor);
   p.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
   p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);
+  p.footprint_sigma = static_cast<float>(footprint_sigma(frame.kernel));
   set_picture(context, p);
   set_plan(context.plan, p);
   set_component(frame, frame.components[component], context.plan.light_behind, p);

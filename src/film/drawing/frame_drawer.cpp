@@ -19,9 +19,14 @@
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/reference.h"
+#include "tree/merged_drawing.h"
+#include "tree/tree_cut.h"
 
 namespace splotchcl {
 namespace {
+
+// More than so many, and a tree is drawn of (docs/performance.md).
+constexpr double particles_over_a_pixel = 50;
 
 // Of several views the one that keeps its promise least well counts.
 void add(const FrameCheck& frame, FrameCheck& total) {
@@ -75,6 +80,16 @@ void add(const RenderStats& frame, RenderStats& total) {
   add(frame.serial, total.serial);
 }
 
+// Eyes, faces and insets together.
+void add(const MergedDrawing& frame, TreeStats& total) {
+  total.nodes += frame.nodes;
+  total.particles += frame.particles;
+  total.visited += frame.visited;
+  total.cuts += frame.cuts;
+  total.verified_blocks += frame.verified_blocks;
+  total.found = std::max(total.found, frame.found);
+}
+
 std::optional<std::string> tell_of_bad_particles(const RenderStats& stats) {
   if (stats.bad_particles == 0) return std::nullopt;
   return fmt::format(
@@ -118,7 +133,8 @@ std::vector<std::string> DrawnFrame::all_notes() const {
 }
 
 struct FrameDrawer::State {
-  explicit State(const FrameDrawerOptions& options) : progress(options.progress) {
+  explicit State(const FrameDrawerOptions& options)
+      : progress(options.progress), tree(options.tree) {
     plan_options.certify = options.certify;
     if (options.by_reference) return;
     const auto open = [of_renderer = renderer_options(options)] {
@@ -145,8 +161,36 @@ struct FrameDrawer::State {
     return of_renderer;
   }
 
-  Image draw_view(const Frame& view, RenderStats& total) {
-    if (!renderer.valid()) return draw_with_reference(view, total);
+  Image draw_view(const Frame& view, DrawnFrame& drawn) {
+    if (!renderer.valid()) return draw_with_reference(view, drawn.stats);
+    if (uses_tree(view)) {
+      if (auto merged =
+              draw_merged(view, [&](const Frame& f) { return draw_alone(f, drawn.stats); })) {
+        add(*merged, drawn.tree);
+        return std::move(merged->image);
+      }
+      drawn.notes.push_back(
+          "the tree of merged particles does not serve this picture: blocks of it that were drawn "
+          "again differ by more than the tolerance; the particles were drawn");
+    }
+    return draw_alone(view, drawn.stats);
+  }
+
+  // Where many particles lie over a pixel, unless the scene says.
+  bool uses_tree(const Frame& view) const {
+    if (tree == TreeUse::never || plan_options.certify || view.tolerance == 0) return false;
+    const bool is_possible = has_served_component(view);
+    if (tree == TreeUse::only && !is_possible) {
+      throw UsageError(
+          "--tree only: found a scene that no tree serves, expected one with kernel.footprint "
+          "above 0 and a tree beside its snapshot (splotchcl tree); docs/tree.md tells what else");
+    }
+    const double pixels = static_cast<double>(view.width) * view.height;
+    return is_possible && (tree == TreeUse::only || static_cast<double>(particle_count(view)) >
+                                                        particles_over_a_pixel * pixels);
+  }
+
+  Image draw_alone(const Frame& view, RenderStats& total) {
     const QuietErrors quiet;
     Image image = draw_with_device(view);
     add(renderer.get()->stats(), total);
@@ -191,7 +235,7 @@ struct FrameDrawer::State {
     DrawnFrame drawn;
     drawn.notes = std::move(notes);
     DrawnPictures pictures = draw_pictures(
-        scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn.stats); },
+        scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn); },
         drawn.notes, other_scenes);
     drawn.pictures = std::move(pictures.pictures);
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
@@ -202,6 +246,7 @@ struct FrameDrawer::State {
 
   std::function<void(const std::string&, double)> progress;
   PlanOptions plan_options;
+  TreeUse tree = TreeUse::automatic;
   std::shared_future<std::shared_ptr<Renderer>> renderer;  // none: the reference draws
 };
 

@@ -183,6 +183,7 @@ class Film {
     of_drawer.by_reference = options_.by_reference;
     of_drawer.columns_stay = true;
     of_drawer.memory_bytes = options_.memory_bytes;
+    of_drawer.tree = options_.tree;
     of_drawer.ranks = options_.ranks;
     FilmDrawer drawer(of_drawer, report_.note);
     drawer.tell(scene_.notes());

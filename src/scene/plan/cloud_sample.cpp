@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/constants.h"
+#include "scene/particle_rules.h"
 #include "scene/peak_color.h"
 #include "scene/plan/cloud_in_picture.h"
 #include "scene/statistics.h"
@@ -29,8 +30,7 @@ class ComponentSample {
         frame_(frame),
         stride_(stride),
         colors_(component),
-        emitted_part_(peak_emission(component) / std::max(peak_color(component), 1e-300)),
-        least_sigma_(frame.kernel.width * frame.kernel.min_radius_pixels) {
+        emitted_part_(peak_emission(component) / std::max(peak_color(component), 1e-300)) {
     for (const Column* column : component.particles.columns()) {
       const bool lies_in_memory = column->is_array() && !column->source();
       if (lies_in_memory && component.particles.count > 0)
@@ -59,11 +59,11 @@ class ComponentSample {
     SampledCloud cloud;
     cloud.x = found->x;
     cloud.y = found->y;
-    cloud.sigma = std::hypot(found->sigma, least_sigma_);
+    const DrawnWidth drawn = drawn_width(found->sigma, frame_.kernel);
+    cloud.sigma = drawn.sigma;
     if (!reaches_picture(cloud, frame_)) return std::nullopt;
     const double amplitude = colors_(i) / component_.reference_column * found->column;
-    cloud.light =
-        amplitude * found->sigma / cloud.sigma * std::min(1.0, pi * cloud.sigma * cloud.sigma);
+    cloud.light = amplitude * drawn.column * std::min(1.0, pi * cloud.sigma * cloud.sigma);
     cloud.emitted_part = emitted_part(amplitude);
     cloud.weight = static_cast<double>(stride_);
     return cloud;
@@ -93,7 +93,6 @@ class ComponentSample {
   std::size_t stride_;
   PeakColors colors_;
   double emitted_part_;
-  double least_sigma_;
   std::vector<Array> arrays_;  // the component's columns that lie in memory
 };
 

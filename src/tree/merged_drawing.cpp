@@ -1,0 +1,129 @@
+#include "tree/merged_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "scene/ceil_divide.h"
+#include "scene/hash.h"
+#include "splotchcl/frame_check.h"
+#include "tree/tree_cut.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr double part_of_nodes = 0.75;      // of the tolerance
+constexpr double verified_finer = 4;        // error of the cut to which a picture is compared
+constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
+constexpr double most_found = 0.9;          // of the promise, on blocks that are verified
+constexpr int most_cuts = 3;
+constexpr int blocks_of_region = 4;  // on each side
+constexpr std::size_t regions_of_each_kind = 4;
+
+// Squares of blocks, as far as the crop reaches.
+std::vector<Rectangle> all_regions(const Rectangle& crop) {
+  constexpr int side = blocks_of_region * BlockErrors::block_pixels;
+  std::vector<Rectangle> regions;
+  for (int y = 0; y < crop.height; y += side) {
+    for (int x = 0; x < crop.width; x += side) {
+      regions.push_back({crop.x + x, crop.y + y, std::min(side, crop.width - x),
+                         std::min(side, crop.height - y)});
+    }
+  }
+  return regions;
+}
+
+float largest_expected(const Rectangle& region, const Rectangle& crop,
+                       const std::vector<float>& expected) {
+  BlockErrors blocks(crop.width, crop.height);
+  blocks.errors = expected;
+  float largest = 0;
+  for (int y = region.y; y < region.y + region.height; y += BlockErrors::block_pixels) {
+    for (int x = region.x; x < region.x + region.width; x += BlockErrors::block_pixels)
+      largest = std::max(largest, blocks.at(x - crop.x, y - crop.y));
+  }
+  return largest;
+}
+
+// Those where most is expected, and as many others that every camera chooses anew; of few all.
+std::vector<Rectangle> verified_regions(const Frame& frame, const std::vector<float>& expected) {
+  std::vector<Rectangle> regions = all_regions(frame.crop);
+  if (regions.size() <= 2 * regions_of_each_kind) return regions;
+  std::vector<std::pair<float, std::size_t>> by_error;
+  for (std::size_t r = 0; r < regions.size(); ++r)
+    by_error.emplace_back(-largest_expected(regions[r], frame.crop, expected), r);
+  std::sort(by_error.begin(), by_error.end());
+  WordHash hash;
+  for (const double number : frame.camera.position.a)
+    hash.add(number);
+  for (const double number : frame.camera.forward.a)
+    hash.add(number);
+  std::vector<Rectangle> chosen;
+  for (std::size_t r = 0; r < regions_of_each_kind; ++r)
+    chosen.push_back(regions[by_error[r].second]);
+  std::vector<std::size_t> others;
+  for (std::size_t r = regions_of_each_kind; r < by_error.size(); ++r)
+    others.push_back(by_error[r].second);
+  for (std::size_t r = 0; r < regions_of_each_kind && r < others.size(); ++r) {
+    const std::uint64_t random = hash_of(hash.value() + r);
+    std::swap(others[r], others[r + static_cast<std::size_t>(random % (others.size() - r))]);
+    chosen.push_back(regions[others[r]]);
+  }
+  return chosen;
+}
+
+// Over max(1, light).
+double largest_difference(const Image& picture, const Rectangle& crop, const Image& finer,
+                          const Rectangle& region) {
+  double largest = 0;
+  for (int y = 0; y < region.height; ++y) {
+    for (int x = 0; x < region.width; ++x) {
+      const float* const a = picture.at(region.x - crop.x + x, region.y - crop.y + y);
+      const float* const b = finer.at(x, y);
+      for (int c = 0; c < 3; ++c) {
+        const double light = std::abs(static_cast<double>(b[c]));
+        largest =
+            std::max(largest, std::abs(static_cast<double>(a[c]) - static_cast<double>(b[c])) /
+                                  std::max(1.0, light));
+      }
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+std::optional<MergedDrawing> draw_merged(const Frame& frame,
+                                         const std::function<Image(const Frame&)>& draw) {
+  MergedDrawing drawing;
+  double error = part_of_nodes * frame.tolerance;
+  for (drawing.cuts = 1; drawing.cuts <= most_cuts; ++drawing.cuts) {
+    TreeCut cut = cut_tree(frame, {error, {}});
+    cut.frame.tolerance = (1 - part_of_nodes) * frame.tolerance;
+    drawing.image = draw(cut.frame);
+    drawing.nodes = cut.nodes;
+    drawing.particles = cut.particles;
+    drawing.visited += cut.visited;
+    drawing.found = 0;
+    drawing.verified_blocks = 0;
+    for (const Rectangle& region : verified_regions(frame, cut.expected)) {
+      Frame part = frame;
+      part.crop = region;
+      TreeCut finer = cut_tree(part, {error / verified_finer, {region}});
+      finer.frame.tolerance = verified_tolerance * frame.tolerance;
+      const double difference =
+          largest_difference(drawing.image, frame.crop, draw(finer.frame), region);
+      drawing.found = std::max(drawing.found, difference / frame.tolerance);
+      drawing.verified_blocks +=
+          BlockErrors::blocks_along(region.width) * BlockErrors::blocks_along(region.height);
+    }
+    if (drawing.found <= most_found) return drawing;
+    error *= std::max(0.2, 0.6 / drawing.found);
+  }
+  return std::nullopt;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "splotchcl/frame.h"
+#include "splotchcl/image.h"
+
+namespace splotchcl {
+
+// What a frame took that was drawn of a tree's nodes, and what was found of its errors.
+struct MergedDrawing {
+  Image image;
+  std::uint64_t nodes = 0, particles = 0;  // that were drawn
+  std::uint64_t visited = 0;               // nodes that were looked at
+  int cuts = 0;                            // that were drawn until it served
+  int verified_blocks = 0;                 // of 16 x 16 pixels
+  // The largest difference there from a cut four times as fine, over what is promised. An estimate,
+  // as the promise of merged particles is.
+  double found = 0;
+};
+
+// Draws a frame with nodes in place of particles (tree_cut.h), so that nodes take three quarters of
+// its tolerance. A share of the picture's blocks, those where most is expected and others, is drawn
+// again from a finer cut; where they differ by more than the tolerance the whole is, from a finer
+// one. Nothing where that does not help: the particles have to be drawn.
+std::optional<MergedDrawing> draw_merged(const Frame& frame,
+                                         const std::function<Image(const Frame&)>& draw);
+
+}  // namespace splotchcl

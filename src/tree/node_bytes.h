@@ -1,0 +1,56 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+// What the bytes of nodes mean. Lengths that are stored as 0 are 0.
+namespace splotchcl {
+
+// To 1/1024 of an octave, from 2^-48 to 2^16.
+inline std::uint16_t length_bits(double length) {
+  if (!(length > 0)) return 0;
+  return static_cast<std::uint16_t>(
+      std::clamp(std::round((std::log2(length) + 48) * 1023), 1.0, 65535.0));
+}
+inline double length_of_bits(std::uint16_t bits) {
+  return bits == 0 ? 0 : std::exp2(bits / 1023.0 - 48);
+}
+
+// To an eighth of an octave, of lengths up to 2^1.75 of a cell.
+inline std::uint8_t rough_bits(double part_of_cell) {
+  if (!(part_of_cell > 0)) return 0;
+  return static_cast<std::uint8_t>(
+      std::clamp(std::round((std::log2(part_of_cell) + 30) * 8), 1.0, 255.0));
+}
+inline double rough_of_bits(std::uint8_t bits) {
+  return bits == 0 ? 0 : std::exp2(bits / 8.0 - 30);
+}
+
+// Smoothing lengths to a quarter of an octave upwards, from 2^-48 to 2^15.
+inline std::uint8_t wide_bits(double h) {
+  return static_cast<std::uint8_t>(std::clamp(std::ceil((std::log2(h) + 48) * 4), 0.0, 255.0));
+}
+inline double smoothing_of_bits(std::uint8_t bits) {
+  return std::exp2(bits / 4.0 - 48);
+}
+
+// The upper half of a float, turned so that whole numbers have the order of the values: seven bits
+// of its mantissa.
+inline std::uint16_t ordered_value(float value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  bits = (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
+  const std::uint32_t rounded = bits > 0xffff7fffU ? bits : bits + 0x8000U;
+  return static_cast<std::uint16_t>(rounded >> 16);
+}
+inline float value_of_ordered(std::uint16_t ordered) {
+  std::uint32_t bits = static_cast<std::uint32_t>(ordered) << 16;
+  bits = (bits & 0x80000000U) != 0 ? bits & 0x7fffffffU : ~bits;
+  float value = 0;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "splotchcl/scene.h"
+#include "splotchcl/vector.h"
+
+namespace splotchcl {
+
+// The particles of one type in an octree, of which nodes stand for all particles below them as one
+// Gaussian each (docs/tree.md). Lengths are in sides of the tree's cube; a node's cell is the
+// cube's over 2^level along each axis. What a node's bytes mean is in node_bytes.h.
+struct TreeNode {
+  std::uint16_t place[3] = {};  // of the centroid, in parts of the cell
+  std::uint16_t deviation = 0;  // of the members' places along one axis: root mean square
+  std::uint16_t size = 0;       // root mean square of h
+  std::uint8_t third = 0, fourth = 0, uneven = 0;  // roots of NodeShape's
+  std::uint8_t widest = 0, unused = 0;             // h, rounded up
+  std::uint8_t reach = 0;                          // NodeMoments::reach, rounded up
+  float flux = 0;                                  // sum of masses, of h, or of density times h^3
+};
+static_assert(sizeof(TreeNode) == 20);
+
+// A field's values of eight members that stand for all: each for an eighth of the flux.
+struct SampledField {
+  std::uint16_t lowest = 0, highest = 0;  // of the eight (ordered_value())
+  std::uint8_t members[8] = {};           // from one to the other
+};
+static_assert(sizeof(SampledField) == 12);
+constexpr std::size_t sampled_members = 8;
+constexpr std::size_t most_fields = 4;
+
+// Nodes of one level in Morton order. Particles of a node that lie in none of the next level are
+// loose: they follow each other in the tree's `order`.
+struct TreeLevel {
+  static constexpr std::uint64_t group = 64;  // nodes
+
+  std::uint64_t count = 0;
+  const TreeNode* nodes = nullptr;
+  const SampledField* fields = nullptr;           // of each node as many as the tree has
+  const std::uint8_t* children = nullptr;         // a bit for each octant of the cell with a node
+  const std::uint8_t* loose = nullptr;            // particles
+  const std::uint64_t* first_children = nullptr;  // in the next level, of each group
+  const std::uint64_t* first_loose = nullptr;     // in the order, likewise
+
+  std::uint64_t first_child(std::uint64_t node) const;
+  std::uint64_t first_loose_particle(std::uint64_t node) const;
+};
+
+struct TreeOfType {
+  static constexpr std::size_t levels_at_most = 22;  // keys of 21 bits along each axis
+
+  int type = 0;
+  std::uint64_t count = 0;  // particles of the snapshot
+  std::uint64_t bad = 0;    // of them not in the tree
+  WeightModel weight = WeightModel::mass;
+  Vec3 origin = {{0, 0, 0}};             // the cube's lower corner, in the snapshot's lengths
+  double side = 1;                       // of the cube
+  std::vector<std::string> fields;       // names of scenes
+  std::vector<TreeLevel> levels;         // from the root on, which is one node; empty: no particles
+  const std::uint32_t* order = nullptr;  // of loose particles: their places in the snapshot
+  std::uint64_t order_count = 0;
+  std::shared_ptr<const void> owner;  // of all memory
+
+  std::uint64_t node_count() const;
+};
+
+// The tree of a component of a scene, whose particles are those of types one after the other.
+class TreeOfComponent {
+ public:
+  struct Part {
+    std::shared_ptr<const TreeOfType> tree;
+    std::uint64_t first = 0;         // particle of the component
+    int color = -1, intensity = -1;  // among the tree's fields; -1: none is used
+  };
+  std::vector<Part> parts;
+  // Particles are drawn at the image nearest to a center; 0: they are where the file has them.
+  Vec3 period = {{0, 0, 0}}, center = {{0, 0, 0}};
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "splotchcl/frame.h"
+#include "tree/particle_tree.h"
+
+namespace splotchcl {
+
+struct CutSettings {
+  // Six standard deviations of what nodes err by are at most this, over max(1, light) in sums.
+  double error = 0;
+  // Only what may be seen here is drawn, for a frame of this crop; none: the frame's crop.
+  std::vector<Rectangle> regions;
+};
+
+// A frame in which nodes stand for particles where they err by little enough.
+struct TreeCut {
+  Frame frame;  // of each component with a tree two: nodes, and particles
+  std::uint64_t nodes = 0, particles = 0;
+  std::uint64_t visited = 0;  // nodes that were looked at
+  // What is expected of each block of 16 x 16 pixels of the crop (BlockErrors), over
+  // max(1, light): six standard deviations.
+  std::vector<float> expected;
+};
+
+// Whether nodes can stand for particles in this frame, and for which components (docs/tree.md,
+// What is not served).
+bool is_served(const Frame& frame, const DrawnComponent& component);
+bool has_served_component(const Frame& frame);
+
+// Looks at nodes from the roots on, level by level, each at most once. Deterministic: the same
+// nodes on any number of threads. Throws DataError where a tree's own numbers do not fit.
+TreeCut cut_tree(const Frame& frame, const CutSettings& settings);
+
+}  // namespace splotchcl

@@ -1,0 +1,301 @@
+#include "tree/tree_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "common/mapped_file.h"
+#include "common/unfinished_file.h"
+#include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
+#include "scene/hash.h"
+#include "snapshot/snapshot_files.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+// The file, in the machine's own endianness: a FileHeader, a TypeHeader for each type, then of each
+// type its sections, each from a multiple of 64 bytes on; last the checksums of chunks of all that
+// comes before, and theirs.
+constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
+                           'l', ' ', 't', ' ', '1', '\n', 0,   0};
+constexpr std::uint64_t alignment = 64, chunk_bytes = 1U << 20,
+                        most_checked_bytes = std::uint64_t{1} << 30;
+constexpr std::size_t name_bytes = 64;
+
+struct FileHeader {
+  FileMark mark;
+  std::uint64_t key, types, bytes;  // of all but the checksums
+};
+struct TypeHeader {
+  std::int64_t type;
+  std::uint64_t count, bad, weight, fields, levels, order_count;
+  double origin[3], side;
+  std::uint64_t nodes[TreeOfType::levels_at_most];
+  char names[most_fields][name_bytes];
+};
+static_assert(sizeof(FileHeader) == 40 && sizeof(TypeHeader) == 520);
+
+std::uint64_t key_of(const SnapshotInfo& info) {
+  WordHash hash = hash_of_files(info);
+  for (const ParticleTypeInfo& type : info.types) {
+    hash.add(static_cast<std::uint64_t>(type.type));
+    hash.add(type.count);
+  }
+  return hash.value();
+}
+
+std::uint64_t padded(std::uint64_t bytes) {
+  return ceil_divide(bytes, alignment) * alignment;
+}
+
+// Bytes of a level's arrays, in the order in which they are stored.
+std::array<std::uint64_t, 6> section_bytes(std::uint64_t nodes, std::uint64_t fields) {
+  const std::uint64_t groups = ceil_divide(nodes, TreeLevel::group);
+  return {nodes * sizeof(TreeNode),       nodes * fields * sizeof(SampledField), nodes, nodes,
+          groups * sizeof(std::uint64_t), groups * sizeof(std::uint64_t)};
+}
+
+TypeHeader header_of(const TreeOfType& tree) {
+  TypeHeader header{};
+  header.type = tree.type;
+  header.count = tree.count;
+  header.bad = tree.bad;
+  header.weight = static_cast<std::uint64_t>(tree.weight);
+  header.fields = tree.fields.size();
+  header.levels = tree.levels.size();
+  header.order_count = tree.order_count;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    header.origin[axis] = tree.origin.a[axis];
+  header.side = tree.side;
+  for (std::size_t l = 0; l < tree.levels.size(); ++l)
+    header.nodes[l] = tree.levels[l].count;
+  for (std::size_t f = 0; f < tree.fields.size(); ++f)
+    tree.fields[f].copy(header.names[f], name_bytes - 1);
+  return header;
+}
+
+// Writes a file and the checksums of its chunks.
+class CheckedWriter {
+ public:
+  explicit CheckedWriter(UnfinishedFile& file) : file_(file) {}
+
+  void write(const void* data, std::uint64_t bytes) {
+    const auto* from = static_cast<const std::byte*>(data);
+    while (bytes > 0) {
+      const std::uint64_t part = std::min(bytes, chunk_bytes - chunk_.size());
+      chunk_.insert(chunk_.end(), from, from + part);
+      from += part;
+      bytes -= part;
+      written_ += part;
+      if (chunk_.size() == chunk_bytes) end_chunk();
+    }
+  }
+  void pad() {
+    const std::array<std::byte, alignment> zeros{};
+    write(zeros.data(), padded(written_) - written_);
+  }
+  void finish() {
+    if (!chunk_.empty()) end_chunk();
+    file_.write(sums_.data(), sums_.size() * sizeof(std::uint64_t));
+    const std::uint64_t sum = checksum(reinterpret_cast<const std::byte*>(sums_.data()),
+                                       sums_.size() * sizeof(std::uint64_t));
+    file_.write(&sum, sizeof sum);
+  }
+
+ private:
+  void end_chunk() {
+    sums_.push_back(checksum(chunk_.data(), chunk_.size()));
+    file_.write(chunk_.data(), chunk_.size());
+    chunk_.clear();
+  }
+
+  UnfinishedFile& file_;
+  std::vector<std::byte> chunk_;
+  std::vector<std::uint64_t> sums_;
+  std::uint64_t written_ = 0;
+};
+
+std::uint64_t file_bytes(const std::vector<TypeHeader>& headers) {
+  std::uint64_t bytes = padded(sizeof(FileHeader) + headers.size() * sizeof(TypeHeader));
+  for (const TypeHeader& header : headers) {
+    for (std::size_t l = 0; l < header.levels; ++l) {
+      for (const std::uint64_t section : section_bytes(header.nodes[l], header.fields))
+        bytes += padded(section);
+    }
+    bytes += padded(header.order_count * sizeof(std::uint32_t));
+  }
+  return bytes;
+}
+
+void write_sections(const TreeOfType& tree, CheckedWriter& writer) {
+  for (const TreeLevel& level : tree.levels) {
+    const void* const sections[] = {level.nodes, level.fields,         level.children,
+                                    level.loose, level.first_children, level.first_loose};
+    const auto bytes = section_bytes(level.count, tree.fields.size());
+    for (std::size_t s = 0; s < bytes.size(); ++s) {
+      writer.write(sections[s], bytes[s]);
+      writer.pad();
+    }
+  }
+  writer.write(tree.order, tree.order_count * sizeof(std::uint32_t));
+  writer.pad();
+}
+
+// The chunks' sums lie behind what they are of.
+bool is_undamaged(const MappedFile& file, std::uint64_t bytes) {
+  const std::uint64_t chunks = ceil_divide(bytes, chunk_bytes);
+  const std::byte* const sums = file.data() + bytes;
+  std::uint64_t last = 0;
+  std::memcpy(&last, sums + chunks * sizeof(std::uint64_t), sizeof last);
+  if (last != checksum(sums, static_cast<std::size_t>(chunks * sizeof(std::uint64_t))))
+    return false;
+  const std::uint64_t checked = file.size() <= most_checked_bytes ? chunks : 1;
+  std::atomic<bool> is_good{true};
+  for_blocks(static_cast<std::size_t>(checked), 1, [&](std::size_t first, std::size_t end) {
+    for (std::size_t c = first; c < end; ++c) {
+      std::uint64_t expected = 0;
+      std::memcpy(&expected, sums + c * sizeof expected, sizeof expected);
+      const std::uint64_t begin = c * chunk_bytes;
+      const auto size = static_cast<std::size_t>(std::min(chunk_bytes, bytes - begin));
+      if (checksum(file.data() + begin, size) != expected) is_good = false;
+    }
+  });
+  return is_good;
+}
+
+bool is_possible(const TypeHeader& header) {
+  return header.fields <= most_fields && header.levels <= TreeOfType::levels_at_most &&
+         header.weight <= 2 && header.count >= header.bad && header.order_count <= header.count &&
+         std::all_of(std::begin(header.nodes), std::end(header.nodes),
+                     [&](std::uint64_t nodes) { return nodes <= header.count; });
+}
+
+// Takes the sections of a mapped file in their order.
+class Sections {
+ public:
+  Sections(std::shared_ptr<const MappedFile> file, std::uint64_t begin)
+      : file_(std::move(file)), next_(begin) {}
+
+  template <class T>
+  void take(std::uint64_t bytes, const T*& array) {
+    array = reinterpret_cast<const T*>(file_->data() + next_);
+    next_ += padded(bytes);
+  }
+  const std::shared_ptr<const MappedFile>& file() const { return file_; }
+
+ private:
+  std::shared_ptr<const MappedFile> file_;
+  std::uint64_t next_;
+};
+
+std::shared_ptr<const TreeOfType> tree_of(const TypeHeader& header, Sections& sections) {
+  auto tree = std::make_shared<TreeOfType>();
+  tree->type = static_cast<int>(header.type);
+  tree->count = header.count;
+  tree->bad = header.bad;
+  tree->weight = static_cast<WeightModel>(header.weight);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    tree->origin.a[axis] = header.origin[axis];
+  tree->side = header.side;
+  for (std::size_t f = 0; f < header.fields; ++f)
+    tree->fields.emplace_back(header.names[f], strnlen(header.names[f], name_bytes));
+  for (std::size_t l = 0; l < header.levels; ++l) {
+    TreeLevel level;
+    level.count = header.nodes[l];
+    const auto bytes = section_bytes(level.count, header.fields);
+    sections.take(bytes[0], level.nodes);
+    sections.take(bytes[1], level.fields);
+    sections.take(bytes[2], level.children);
+    sections.take(bytes[3], level.loose);
+    sections.take(bytes[4], level.first_children);
+    sections.take(bytes[5], level.first_loose);
+    tree->levels.push_back(level);
+  }
+  sections.take(header.order_count * sizeof(std::uint32_t), tree->order);
+  tree->order_count = header.order_count;
+  tree->owner = sections.file();
+  return tree;
+}
+
+bool is_regular(const std::filesystem::path& path) {
+  std::error_code missing;
+  return std::filesystem::is_regular_file(path, missing);
+}
+
+}  // namespace
+
+std::filesystem::path tree_path(const SnapshotInfo& info) {
+  std::filesystem::path path = info.files.front();
+  path += ".splotchcl_tree";
+  return path;
+}
+
+bool tree_is_of_use(const SnapshotInfo& info) {
+  return info.has_positions_of_files && info.is_whole() && !info.files.empty() &&
+         is_regular(info.files.front());
+}
+
+bool tree_is_there(const SnapshotInfo& info) {
+  return tree_is_of_use(info) && is_regular(tree_path(info));
+}
+
+void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees) {
+  const std::filesystem::path path = tree_path(info);
+  if (is_another_file(path, mark)) {
+    throw UsageError(fmt::format(
+        "{}: found a file that is no tree, expected none or a tree; move it", path.string()));
+  }
+  if (hash_of_files(info).value() != info.files_mark) {
+    throw DataError(info.files.front().string() +
+                    ": was written anew while its tree was made; make it again when the snapshot "
+                    "is complete");
+  }
+  std::vector<TypeHeader> headers;
+  for (const TreeOfType& tree : trees)
+    headers.push_back(header_of(tree));
+  const FileHeader header = {mark, key_of(info), headers.size(), file_bytes(headers)};
+  check_output_path(path);
+  UnfinishedFile file(path);
+  CheckedWriter writer(file);
+  writer.write(&header, sizeof header);
+  writer.write(headers.data(), headers.size() * sizeof(TypeHeader));
+  writer.pad();
+  for (const TreeOfType& tree : trees)
+    write_sections(tree, writer);
+  writer.finish();
+  file.finish();
+}
+
+std::optional<Trees> read_trees(const SnapshotInfo& info) {
+  if (!tree_is_there(info) || hash_of_files(info).value() != info.files_mark) return std::nullopt;
+  const auto file = MappedFile::open_if_possible(tree_path(info));
+  FileHeader header{};
+  if (file == nullptr || file->size() < sizeof header) return std::nullopt;
+  std::memcpy(&header, file->data(), sizeof header);
+  const std::uint64_t beginning = sizeof header + header.types * sizeof(TypeHeader);
+  if (header.mark != mark || header.key != key_of(info) || header.types > info.types.size() ||
+      file->size() < beginning)
+    return std::nullopt;
+  std::vector<TypeHeader> headers(static_cast<std::size_t>(header.types));
+  std::memcpy(headers.data(), file->data() + sizeof header, headers.size() * sizeof(TypeHeader));
+  if (!std::all_of(headers.begin(), headers.end(), is_possible) ||
+      header.bytes != file_bytes(headers) ||
+      file->size() != header.bytes + (ceil_divide(header.bytes, chunk_bytes) + 1) * 8 ||
+      !is_undamaged(*file, header.bytes))
+    return std::nullopt;
+  Sections sections(file, padded(beginning));
+  Trees trees;
+  for (const TypeHeader& of_type : headers)
+    trees.push_back(tree_of(of_type, sections));
+  return trees;
+}
+
+}  // namespace splotchcl

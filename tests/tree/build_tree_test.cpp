@@ -1,0 +1,154 @@
+#include "tree/build_tree.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "splotchcl/error.h"
+#include "tree/node_bytes.h"
+#include "tree/tree_scenes.h"
+
+namespace splotchcl::test {
+namespace {
+
+// All particles below a node, each as often as it is there.
+void collect(const TreeOfType& tree, std::size_t level, std::uint64_t node,
+             std::vector<std::uint32_t>& places) {
+  const TreeLevel& nodes = tree.levels[level];
+  const std::uint64_t first = nodes.first_loose_particle(node);
+  for (std::uint64_t i = first; i < first + nodes.loose[node]; ++i)
+    places.push_back(tree.order[i]);
+  std::uint64_t child = nodes.first_child(node);
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    if ((nodes.children[node] >> octant & 1U) != 0) collect(tree, level + 1, child++, places);
+  }
+}
+
+template <class T>
+bool are_same(const T* a, const T* b, std::uint64_t count) {
+  return std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0;
+}
+
+void expect_same(const TreeOfType& a, const TreeOfType& b) {
+  ASSERT_EQ(a.levels.size(), b.levels.size());
+  for (std::size_t l = 0; l < a.levels.size(); ++l) {
+    ASSERT_EQ(a.levels[l].count, b.levels[l].count);
+    EXPECT_TRUE(are_same(a.levels[l].nodes, b.levels[l].nodes, a.levels[l].count));
+    EXPECT_TRUE(
+        are_same(a.levels[l].fields, b.levels[l].fields, a.levels[l].count * a.fields.size()));
+    EXPECT_TRUE(are_same(a.levels[l].children, b.levels[l].children, a.levels[l].count));
+    EXPECT_TRUE(are_same(a.levels[l].loose, b.levels[l].loose, a.levels[l].count));
+  }
+  ASSERT_EQ(a.order_count, b.order_count);
+  EXPECT_TRUE(are_same(a.order, b.order, a.order_count));
+}
+
+TEST(BuildTree, HoldsEachParticleOnce) {
+  const Matter matter = clumps(20000, 3);
+  for (const unsigned least : {2u, 4u, 9u}) {
+    const auto tree = tree_of(matter, least);
+    ASSERT_EQ(tree->levels.front().count, 1u);
+    std::vector<std::uint32_t> places;
+    collect(*tree, 0, 0, places);
+    ASSERT_EQ(places.size(), matter.count());
+    EXPECT_EQ(std::set<std::uint32_t>(places.begin(), places.end()).size(), matter.count());
+  }
+}
+
+TEST(BuildTree, KeepsTheFluxOnEveryLevel) {
+  const Matter matter = clumps(20000, 4);
+  const auto tree = tree_of(matter);
+  const double all = std::accumulate(matter.mass.begin(), matter.mass.end(), 0.0);
+  EXPECT_NEAR(static_cast<double>(tree->levels.front().nodes->flux), all, 1e-6 * all);
+  for (std::size_t level = 0; level + 1 < tree->levels.size(); ++level) {
+    for (std::uint64_t node = 0; node < tree->levels[level].count; ++node) {
+      std::vector<std::uint32_t> places;
+      collect(*tree, level, node, places);
+      double flux = 0;
+      for (const std::uint32_t place : places)
+        flux += static_cast<double>(matter.mass[place]);
+      ASSERT_NEAR(static_cast<double>(tree->levels[level].nodes[node].flux), flux, 1e-6 * flux);
+    }
+  }
+}
+
+TEST(BuildTree, HasTheSameBitsHoweverManyParticlesAreHeld) {
+  const Matter matter = clumps(30000, 5);
+  const TreeSource source = source_of(matter);
+  expect_same(build_tree(source, {4, 1000}), build_tree(source, {4, 0}));
+}
+
+// A mean over nodes of what a steep palette makes of eight members is that of all members, within
+// four of its standard errors.
+TEST(BuildTree, SamplesMembersWithoutBias) {
+  const Matter matter = clumps(40000, 6, 1);
+  const auto tree = tree_of(matter, 16);
+  const TreeLevel& level = tree->levels[3];
+  double difference = 0, squares = 0, sampled_sum = 0;
+  for (std::uint64_t node = 0; node < level.count; ++node) {
+    std::vector<std::uint32_t> places;
+    collect(*tree, 3, node, places);
+    double exact = 0, sampled = 0;
+    for (const std::uint32_t place : places)
+      exact += matter.color[place] > 3 ? 1 : 0;
+    exact /= static_cast<double>(places.size());
+    const SampledField& field = level.fields[node];
+    const unsigned span = static_cast<unsigned>(field.highest) - field.lowest;
+    for (const std::uint8_t member : field.members) {
+      const auto value = static_cast<std::uint16_t>(field.lowest + (span * member + 127) / 255);
+      sampled += value_of_ordered(value) > 3 ? 1.0 / 8 : 0;
+    }
+    difference += sampled - exact;
+    squares += (sampled - exact) * (sampled - exact);
+    sampled_sum += sampled;
+  }
+  EXPECT_GT(sampled_sum, 10);
+  EXPECT_LE(std::abs(difference), 4 * std::sqrt(squares));
+}
+
+TEST(BuildTree, LeavesBadParticlesOutAndCountsThem) {
+  Matter matter = clumps(1000, 7);
+  matter.position[3] = std::numeric_limits<float>::quiet_NaN();
+  matter.h[5] = -1;
+  matter.mass[9] = -2;
+  const auto tree = tree_of(matter);
+  EXPECT_EQ(tree->bad, 3u);
+  std::vector<std::uint32_t> places;
+  collect(*tree, 0, 0, places);
+  EXPECT_EQ(places.size(), 997u);
+}
+
+TEST(BuildTree, TakesFewParticlesAndNone) {
+  Matter one;
+  one.add(5, 5, 5, 1, 2, 3);
+  const auto tree = tree_of(one);
+  ASSERT_EQ(tree->levels.size(), 1u);
+  EXPECT_EQ(tree->levels.front().nodes->flux, 2);
+  EXPECT_EQ(tree->order_count, 1u);
+  EXPECT_TRUE(tree_of(Matter())->levels.empty());
+}
+
+TEST(BuildTree, RefusesMoreThan255ParticlesInOnePlace) {
+  Matter matter = clumps(100, 8);
+  for (int i = 0; i < 256; ++i)
+    matter.add(0.5, 0.5, 0.5, 0.01, 1, 1);
+  EXPECT_THROW(tree_of(matter), UsageError);
+}
+
+TEST(OrderedValue, KeepsTheOrderAndSevenBits) {
+  const std::vector<float> rising = {-1e30f, -2.5f, -1e-20f, 0, 1e-20f, 1, 1.01f, 3e4f, 1e30f};
+  for (std::size_t i = 0; i < rising.size(); ++i) {
+    if (i > 0) {
+      EXPECT_LT(ordered_value(rising[i - 1]), ordered_value(rising[i]));
+    }
+    const float back = value_of_ordered(ordered_value(rising[i]));
+    EXPECT_NEAR(back, rising[i], std::abs(rising[i]) / 250);
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl::test

@@ -1,0 +1,177 @@
+#include "tree/merged_drawing.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <string>
+
+#include "device/pictures.h"
+#include "long_tests.h"
+#include "splotchcl/reference.h"
+#include "tree/tree_cut.h"
+#include "tree/tree_scenes.h"
+
+namespace splotchcl::test {
+namespace {
+
+class MergedDrawings : public PictureTest {
+ protected:
+  static std::optional<MergedDrawing> draw_from_tree(const Frame& frame) {
+    return draw_merged(frame, [](const Frame& part) { return draw(part); });
+  }
+  // Over max(1, light) and the tolerance.
+  static double error_of(const Image& picture, const Frame& frame) {
+    const ReferenceImage exact = reference::render(frame);
+    double worst = 0;
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+      if (i % 4 == 3) continue;
+      const double error = std::abs(static_cast<double>(picture.pixels[i]) - exact.pixels[i]);
+      worst = std::max(worst, error / std::max(1.0, std::abs(exact.pixels[i])));
+    }
+    return worst / frame.tolerance;
+  }
+};
+
+// Planted and seen from somewhere, with light over three decades.
+Frame random_frame(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const Matter matter = clumps(20000 + static_cast<std::size_t>(uniform(random) * 60000), seed,
+                               seed % 6 == 0 ? 3 : 0.3);
+  Frame frame = frame_of(matter, 40, 30);
+  Camera camera;
+  camera.look_at = {{uniform(random), uniform(random), uniform(random)}};
+  const double angle = 2 * pi * uniform(random), distance = 0.8 + 2 * uniform(random);
+  camera.position = {{camera.look_at.a[0] + distance * std::cos(angle),
+                      camera.look_at.a[1] + distance * std::sin(angle),
+                      camera.look_at.a[2] + uniform(random) - 0.5}};
+  if (seed % 5 == 0) camera.projection = Projection::orthographic;
+  if (seed % 7 == 0) camera.projection = Projection::fisheye;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.projection = camera.projection;
+  frame.kernel.footprint_pixels = 0.25 + 0.5 * uniform(random);
+  frame.tolerance = seed % 2 == 0 ? 1e-2 : 1e-3;
+  DrawnComponent& gas = frame.components.front();
+  gas.brightness = std::pow(10, 3 * uniform(random) - 1.5);
+  const Absorption::Kind kinds[] = {Absorption::Kind::none, Absorption::Kind::as_emission,
+                                    Absorption::Kind::factor};
+  gas.absorption.kind = kinds[seed % 3];
+  if (gas.absorption.kind == Absorption::Kind::factor) gas.absorption.factor = gas.brightness;
+  plant(frame, tree_of(matter, seed % 4 == 0 ? 8 : 4));
+  return frame;
+}
+
+TEST_F(MergedDrawings, KeepTheToleranceInRandomFrames) {
+  std::size_t served = 0;
+  for (const std::uint64_t seed : seeds(1, 120)) {
+    const Frame frame = random_frame(seed);
+    const auto drawing = draw_from_tree(frame);
+    if (!drawing) continue;
+    ++served;
+    EXPECT_LE(error_of(drawing->image, frame), 1)
+        << "seed " << seed << ", found " << drawing->found;
+  }
+  EXPECT_GT(served, seeds(1, 120).size() / 2) << "most should be served";
+}
+
+// Particles of a lattice along the view, whose nodes err alike: what the estimate does not know and
+// the blocks that are drawn again show.
+TEST_F(MergedDrawings, KeepTheToleranceForALatticeAlongTheView) {
+  Matter matter;
+  constexpr int side = 40;
+  for (int i = 0; i < side * side * side; ++i) {
+    matter.add((i % side + 0.5) / side, (i / side % side + 0.5) / side,
+               (i / side / side + 0.5) / side, 0.4 / side, 1, 1);
+  }
+  Frame frame = frame_of(matter, 30, 30);
+  Camera camera;
+  camera.position = {{0.5, -3, 0.5}};
+  camera.look_at = {{0.5, 0.5, 0.5}};
+  camera.sky = {{0, 0, 1}};
+  camera.projection = Projection::orthographic;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  frame.projection = camera.projection;
+  plant(frame, tree_of(matter));
+  const auto drawing = draw_from_tree(frame);
+  if (drawing) {
+    EXPECT_LE(error_of(drawing->image, frame), 1);
+  }
+}
+
+TEST_F(MergedDrawings, TakeFewerSplatsThanThereAreParticles) {
+  const Matter matter = clumps(200000, 21);
+  Frame frame = frame_of(matter, 40, 30);
+  plant(frame, tree_of(matter));
+  const auto drawing = draw_from_tree(frame);
+  ASSERT_TRUE(drawing);
+  EXPECT_LT(drawing->nodes + drawing->particles, matter.count() / 4);
+  EXPECT_LE(error_of(drawing->image, frame), 1);
+}
+
+TEST_F(MergedDrawings, DrawPeriodicImagesNearestToACenter) {
+  const Matter matter = clumps(50000, 22);
+  Frame frame = frame_of(matter, 40, 30);
+  const Vec3 center = {{0.9, 0.4, 0.6}};
+  Matter wrapped = matter;
+  for (std::size_t i = 0; i < wrapped.position.size(); ++i) {
+    const double d = static_cast<double>(matter.position[i]) - center.a[i % 3];
+    wrapped.position[i] = static_cast<float>(d - std::round(d));
+  }
+  frame.components.front().particles.position = Column::owning(wrapped.position);
+  frame.components.front().particles.origin = center;
+  auto tree = std::make_shared<TreeOfComponent>();
+  tree->parts = {{tree_of(matter), 0, 0, -1}};
+  tree->period = {{1, 1, 1}};
+  tree->center = center;
+  frame.components.front().particles.tree = tree;
+  const auto drawing = draw_from_tree(frame);
+  ASSERT_TRUE(drawing);
+  EXPECT_GT(drawing->nodes, 100u);
+  EXPECT_LE(error_of(drawing->image, frame), 1);
+}
+
+TEST(TreeCut, OpensAllToParticlesWhereNothingMayErr) {
+  const Matter matter = clumps(3000, 23);
+  Frame frame = frame_of(matter, 40, 30);
+  frame.projection = Projection::fisheye;  // which shows all
+  Camera camera;
+  camera.position = {{0.5, -1.6, 0.7}};
+  camera.look_at = {{0.5, 0.5, 0.5}};
+  camera.projection = Projection::fisheye;
+  frame.camera = make_camera_frame(camera, frame.width, frame.height);
+  plant(frame, tree_of(matter));
+  const TreeCut cut = cut_tree(frame, {0, {}});
+  EXPECT_EQ(cut.nodes, 0u);
+  EXPECT_EQ(cut.particles, matter.count());
+}
+
+TEST(TreeCut, IsTheSameOnAnyNumberOfThreads) {
+  const Matter matter = clumps(30000, 24);
+  Frame frame = frame_of(matter, 40, 30);
+  plant(frame, tree_of(matter));
+  const TreeCut one = cut_tree(frame, {1e-3, {}}), other = cut_tree(frame, {1e-3, {}});
+  ASSERT_EQ(one.nodes, other.nodes);
+  for (std::size_t i = 0; i < one.nodes; ++i) {
+    ASSERT_EQ(one.frame.components[0].particles.smoothing_length[i],
+              other.frame.components[0].particles.smoothing_length[i]);
+  }
+}
+
+TEST(TreeCut, ServesNoCutKernelNoFootprintAndNoGrayAbsorption) {
+  const Matter matter = clumps(100, 25);
+  Frame frame = frame_of(matter, 40, 30);
+  EXPECT_FALSE(has_served_component(frame)) << "without a tree";
+  plant(frame, tree_of(matter));
+  EXPECT_TRUE(has_served_component(frame));
+  Frame cut = frame, square = frame, gray = frame;
+  cut.kernel.cut = 2;
+  square.kernel.footprint_pixels = 0;
+  gray.components.front().absorption = {Absorption::Kind::gray, 1};
+  EXPECT_FALSE(has_served_component(cut));
+  EXPECT_FALSE(has_served_component(square));
+  EXPECT_FALSE(has_served_component(gray));
+}
+
+}  // namespace
+}  // namespace splotchcl::test
