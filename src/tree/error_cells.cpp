@@ -18,7 +18,8 @@ ErrorCells::ErrorCells(int width, int height) {
   int rows = (height + cell_pixels - 1) / cell_pixels;
   while (true) {
     const auto cells = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    grids_.push_back({columns, rows, std::vector<double>(cells, 0)});
+    const double pixels = std::ldexp(static_cast<double>(cell_pixels), scales());
+    grids_.push_back({columns, rows, pixels, std::vector<double>(cells, 0)});
     if (columns == 1 && rows == 1) break;
     columns = halved(columns);
     rows = halved(rows);
@@ -30,15 +31,11 @@ int ErrorCells::scale_of(double pixels) const {
   return std::min(scales() - 1, static_cast<int>(std::ceil(std::log2(pixels / cell_pixels))));
 }
 
-double ErrorCells::pixels(int scale) const {
-  return std::ldexp(static_cast<double>(cell_pixels), scale);
-}
-
 std::size_t ErrorCells::cell_at(int scale, double x, double y) const {
   const Grid& cells = grid(scale);
   const auto place = [&](double at, int count) {
     return static_cast<std::size_t>(
-        std::clamp(std::floor(at / pixels(scale)), 0.0, static_cast<double>(count - 1)));
+        std::clamp(at / cells.pixels, 0.0, static_cast<double>(count - 1)));
   };
   return place(y, cells.rows) * static_cast<std::size_t>(cells.columns) + place(x, cells.columns);
 }

@@ -19,7 +19,7 @@ class ErrorCells {
   // The cell that a place lies in, the nearest one beside the picture.
   std::size_t cell_at(int scale, double x, double y) const;
   std::size_t count(int scale) const { return grid(scale).values.size(); }
-  double pixels(int scale) const;  // on each side
+  double pixels(int scale) const { return grid(scale).pixels; }  // on each side
   int columns(int scale) const { return grid(scale).columns; }
 
   double& at(int scale, std::size_t cell) { return grid(scale).values[cell]; }
@@ -34,6 +34,7 @@ class ErrorCells {
  private:
   struct Grid {
     int columns = 0, rows = 0;
+    double pixels = cell_pixels;
     std::vector<double> values;
   };
   Grid& grid(int scale) { return grids_[static_cast<std::size_t>(scale)]; }

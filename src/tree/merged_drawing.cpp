@@ -75,23 +75,37 @@ std::vector<Rectangle> verified_regions(const Frame& frame, const std::vector<fl
   return chosen;
 }
 
-// Over max(1, light).
-double largest_difference(const Image& picture, const Rectangle& crop, const Image& finer,
+// In a part of the crop, over max(1, light).
+double largest_difference(const Image& picture, const Image& finer, const Rectangle& crop,
                           const Rectangle& region) {
   double largest = 0;
-  for (int y = 0; y < region.height; ++y) {
-    for (int x = 0; x < region.width; ++x) {
-      const float* const a = picture.at(region.x - crop.x + x, region.y - crop.y + y);
-      const float* const b = finer.at(x, y);
+  for (int y = region.y - crop.y; y < region.y - crop.y + region.height; ++y) {
+    for (int x = region.x - crop.x; x < region.x - crop.x + region.width; ++x) {
       for (int c = 0; c < 3; ++c) {
-        const double light = std::abs(static_cast<double>(b[c]));
-        largest =
-            std::max(largest, std::abs(static_cast<double>(a[c]) - static_cast<double>(b[c])) /
-                                  std::max(1.0, light));
+        const double a = static_cast<double>(picture.at(x, y)[c]);
+        const double b = static_cast<double>(finer.at(x, y)[c]);
+        largest = std::max(largest, std::abs(a - b) / std::max(1.0, std::abs(b)));
       }
     }
   }
   return largest;
+}
+
+// Regions are drawn together: elsewhere that picture shows a part of its light.
+void verify(const Frame& frame, double error, const std::vector<Rectangle>& regions,
+            const std::function<Image(const Frame&)>& draw, MergedDrawing& drawing) {
+  TreeCut finer = cut_tree(frame, {error / verified_finer, regions});
+  finer.frame.tolerance = verified_tolerance * frame.tolerance;
+  const Image exact = draw(finer.frame);
+  drawing.visited += finer.visited;
+  drawing.found = 0;
+  drawing.verified_blocks = 0;
+  for (const Rectangle& region : regions) {
+    const double difference = largest_difference(drawing.image, exact, frame.crop, region);
+    drawing.found = std::max(drawing.found, difference / frame.tolerance);
+    drawing.verified_blocks +=
+        BlockErrors::blocks_along(region.width) * BlockErrors::blocks_along(region.height);
+  }
 }
 
 }  // namespace
@@ -107,19 +121,7 @@ std::optional<MergedDrawing> draw_merged(const Frame& frame,
     drawing.nodes = cut.nodes;
     drawing.particles = cut.particles;
     drawing.visited += cut.visited;
-    drawing.found = 0;
-    drawing.verified_blocks = 0;
-    for (const Rectangle& region : verified_regions(frame, cut.expected)) {
-      Frame part = frame;
-      part.crop = region;
-      TreeCut finer = cut_tree(part, {error / verified_finer, {region}});
-      finer.frame.tolerance = verified_tolerance * frame.tolerance;
-      const double difference =
-          largest_difference(drawing.image, frame.crop, draw(finer.frame), region);
-      drawing.found = std::max(drawing.found, difference / frame.tolerance);
-      drawing.verified_blocks +=
-          BlockErrors::blocks_along(region.width) * BlockErrors::blocks_along(region.height);
-    }
+    verify(frame, error, verified_regions(frame, cut.expected), draw, drawing);
     if (drawing.found <= most_found) return drawing;
     error *= std::max(0.2, 0.6 / drawing.found);
   }

@@ -4,9 +4,19 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <vector>
 
 // What the bytes of nodes mean. Lengths that are stored as 0 are 0.
 namespace splotchcl {
+
+// Most nodes are looked at for these numbers alone.
+template <int size, class Make>
+std::vector<double> table_of(const Make& make) {
+  std::vector<double> table(size);
+  for (int b = 0; b < size; ++b)
+    table[static_cast<std::size_t>(b)] = make(b);
+  return table;
+}
 
 // To 1/1024 of an octave, from 2^-48 to 2^16.
 inline std::uint16_t length_bits(double length) {
@@ -15,7 +25,9 @@ inline std::uint16_t length_bits(double length) {
       std::clamp(std::round((std::log2(length) + 48) * 1023), 1.0, 65535.0));
 }
 inline double length_of_bits(std::uint16_t bits) {
-  return bits == 0 ? 0 : std::exp2(bits / 1023.0 - 48);
+  static const auto lengths =
+      table_of<65536>([](int b) { return b == 0 ? 0 : std::exp2(b / 1023.0 - 48); });
+  return lengths[bits];
 }
 
 // To an eighth of an octave, of lengths up to 2^1.75 of a cell.
@@ -25,7 +37,9 @@ inline std::uint8_t rough_bits(double part_of_cell) {
       std::clamp(std::round((std::log2(part_of_cell) + 30) * 8), 1.0, 255.0));
 }
 inline double rough_of_bits(std::uint8_t bits) {
-  return bits == 0 ? 0 : std::exp2(bits / 8.0 - 30);
+  static const auto roughs =
+      table_of<256>([](int b) { return b == 0 ? 0 : std::exp2(b / 8.0 - 30); });
+  return roughs[bits];
 }
 
 // Smoothing lengths to a quarter of an octave upwards, from 2^-48 to 2^15.
@@ -33,7 +47,8 @@ inline std::uint8_t wide_bits(double h) {
   return static_cast<std::uint8_t>(std::clamp(std::ceil((std::log2(h) + 48) * 4), 0.0, 255.0));
 }
 inline double smoothing_of_bits(std::uint8_t bits) {
-  return std::exp2(bits / 4.0 - 48);
+  static const auto lengths = table_of<256>([](int b) { return std::exp2(b / 4.0 - 48); });
+  return lengths[bits];
 }
 
 // The upper half of a float, turned so that whole numbers have the order of the values: seven bits

@@ -34,37 +34,41 @@ constexpr double nearest_reaches = 20, nearest_widths = 12;
 constexpr double standard_deviations = 6;
 constexpr double reach_in_sigma = 7;  // no cloud is drawn farther
 
-// Palette colors and intensities of stored field values, by their sixteen bits.
+// Palette colors of stored field values, by their sixteen bits.
 class FieldColors {
  public:
-  FieldColors(const DrawnComponent& component, bool has_field)
-      : colors_(has_field ? values : 1), changes_(colors_.size(), 0) {
-    for_blocks(colors_.size(), 4096, [&](std::size_t first, std::size_t last) {
+  FieldColors(const DrawnComponent& component, bool has_field) : entries_(has_field ? values : 1) {
+    for_blocks(entries_.size(), 4096, [&](std::size_t first, std::size_t last) {
       for (std::size_t v = first; v < last; ++v) {
         const double value =
             has_field ? static_cast<double>(value_of_ordered(static_cast<std::uint16_t>(v))) : 0;
-        colors_[v] = sample_knots(component.palette.emission,
-                                  has_field ? normalized(value, component.color) : 0);
+        const auto color = sample_knots(component.palette.emission,
+                                        has_field ? normalized(value, component.color) : 0);
+        for (std::size_t c = 0; c < 3; ++c)
+          entries_[v].color[c] = static_cast<float>(color[c]);
       }
     });
-    for (std::size_t v = 1; v < colors_.size(); ++v) {
-      double change = 0;
+    for (std::size_t v = 1; v < entries_.size(); ++v) {
+      float change = 0;
       for (std::size_t c = 0; c < 3; ++c)
-        change = std::max(change, std::abs(colors_[v][c] - colors_[v - 1][c]));
-      changes_[v] = changes_[v - 1] + change;
+        change = std::max(change, std::abs(entries_[v].color[c] - entries_[v - 1].color[c]));
+      entries_[v].changes = entries_[v - 1].changes + change;
     }
   }
 
-  const std::array<double, 3>& color(std::size_t v) const { return colors_[v]; }
+  const std::array<float, 3>& color(std::size_t v) const { return entries_[v].color; }
   // How far colors lie apart between two values at most, in any channel.
-  double spread(std::size_t a, std::size_t b) const {
-    return std::min(2.0, std::abs(changes_[a] - changes_[b]));
+  float spread(std::size_t a, std::size_t b) const {
+    return std::min(2.0f, std::abs(entries_[a].changes - entries_[b].changes));
   }
 
  private:
   static constexpr std::size_t values = 65536;
-  std::vector<std::array<double, 3>> colors_;
-  std::vector<double> changes_;
+  struct Entry {
+    std::array<float, 3> color{};
+    float changes = 0;  // from the first value to this
+  };
+  std::vector<Entry> entries_;
 };
 
 std::size_t sampled_value(const SampledField& field, std::size_t k) {
@@ -74,7 +78,7 @@ std::size_t sampled_value(const SampledField& field, std::size_t k) {
 
 // What the fields of a node's members make of its light.
 struct NodeColor {
-  std::array<double, 3> mean = {1, 1, 1};
+  std::array<float, 3> mean = {1, 1, 1};
   double variance = 0;   // of the mean, since only some members are known
   double deviation = 0;  // of members
 };
@@ -86,10 +90,10 @@ struct TreePart {
   const TreeOfComponent* of_component = nullptr;
   const DrawnComponent* drawn = nullptr;
   std::shared_ptr<const FieldColors> colors;
-  std::vector<double> intensities;  // by sixteen bits; empty: 1
-  double deviation_per_h = 0;       // in lengths
-  double light_per_flux = 0;        // times pixels per length squared: the sum over pixels
-  double least_amplitude = 0;       // of absorption, over brightness
+  std::vector<float> intensities;  // by sixteen bits; empty: 1
+  double deviation_per_h = 0;      // in lengths
+  double light_per_flux = 0;       // times pixels per length squared: the sum over pixels
+  double least_amplitude = 0;      // of absorption, over brightness
 };
 
 struct Item {
@@ -100,10 +104,10 @@ struct Item {
 enum class Fate : std::uint8_t { unseen, open, weighed };
 
 struct Weighed {
-  float x = 0, y = 0;
   float error2 = 0;  // of its own, squared, added up over pixels
   float area = 1;    // pixels that it is spread over
   float light = 0;
+  std::uint32_t cell = 0;  // of its scale
   std::uint8_t scale = 0;
   Fate fate = Fate::unseen;
   std::array<float, 3> color{};
@@ -173,9 +177,9 @@ class Cutter {
       if (part.intensity >= 0) {
         added.intensities.resize(65536);
         for (std::size_t v = 0; v < added.intensities.size(); ++v) {
-          added.intensities[v] =
+          added.intensities[v] = static_cast<float>(
               normalized(static_cast<double>(value_of_ordered(static_cast<std::uint16_t>(v))),
-                         drawn.intensity);
+                         drawn.intensity));
         }
       }
       const double width = frame_.kernel.width * drawn.size_factor;
@@ -250,8 +254,6 @@ class Cutter {
     }
     const auto projected = project_point(from, camera, frame_.projection);
     if (!projected || is_at_limit(projected->depth, reach)) return weighed;
-    weighed.x = static_cast<float>(projected->x);
-    weighed.y = static_cast<float>(projected->y);
     if (is_unseen(*projected, reach, widest)) {
       weighed.fate = Fate::unseen;
       return weighed;
@@ -308,35 +310,36 @@ class Cutter {
       return color;
     }
     const SampledField* const sampled = level.fields + node * fields;
-    std::array<std::array<double, 3>, sampled_members> members;
     std::array<std::size_t, sampled_members> values{};
-    std::array<double, sampled_members> factors;
+    std::array<float, sampled_members> factors;
+    factors.fill(1);
     for (std::size_t k = 0; k < sampled_members; ++k) {
       if (part.part->color >= 0) values[k] = sampled_value(sampled[part.part->color], k);
-      members[k] = part.colors->color(values[k]);
-      factors[k] = part.part->intensity >= 0
-                       ? part.intensities[sampled_value(sampled[part.part->intensity], k)]
-                       : 1;
+      if (part.part->intensity >= 0)
+        factors[k] = part.intensities[sampled_value(sampled[part.part->intensity], k)];
     }
+    constexpr float share = 1.0f / sampled_members;
     color.mean = {0, 0, 0};
-    std::array<double, 3> squares{};
+    std::array<float, 3> squares{};
+    float variance = 0;
     for (std::size_t k = 0; k < sampled_members; ++k) {
       for (std::size_t c = 0; c < 3; ++c) {
-        const double value = members[k][c] * factors[k];
-        color.mean[c] += value / sampled_members;
-        squares[c] += value * value / sampled_members;
+        const float value = part.colors->color(values[k])[c] * factors[k];
+        color.mean[c] += value * share;
+        squares[c] += value * value * share;
       }
       const std::size_t before = k > 0 ? k - 1 : k;
       const std::size_t after = k + 1 < sampled_members ? k + 1 : k;
       // Between neighbours lies what the eighth may hold.
-      const double spread = part.colors->spread(values[before], values[after]) *
-                                std::max({factors[before], factors[k], factors[after]}) +
-                            std::abs(factors[after] - factors[before]);
-      color.variance += spread * spread / 4 / (sampled_members * sampled_members);
+      const float spread = part.colors->spread(values[before], values[after]) *
+                               std::max({factors[before], factors[k], factors[after]}) +
+                           std::abs(factors[after] - factors[before]);
+      variance += spread * spread / 4 * share * share;
     }
+    color.variance = static_cast<double>(variance);
     for (std::size_t c = 0; c < 3; ++c) {
-      color.deviation = std::max(
-          color.deviation, std::sqrt(std::max(0.0, squares[c] - color.mean[c] * color.mean[c])));
+      const float spread2 = std::max(0.0f, squares[c] - color.mean[c] * color.mean[c]);
+      color.deviation = std::max(color.deviation, static_cast<double>(std::sqrt(spread2)));
     }
     return color;
   }
@@ -350,13 +353,14 @@ class Cutter {
     const double light = static_cast<double>(node.flux) * part.light_per_flux *
                          at.pixels_per_length * at.pixels_per_length;
     const NodeColor color = color_of(part, level, number);
-    double amplitude = std::max({color.mean[0], color.mean[1], color.mean[2]});
+    auto amplitude = static_cast<double>(std::max({color.mean[0], color.mean[1], color.mean[2]}));
     amplitude *= std::max(1.0, part.least_amplitude);
-    const double uneven = std::pow(rough_of_bits(node.uneven) * cell * scale, 2);
-    const double third = std::pow(rough_of_bits(node.third) * cell * scale, 3);
-    const double fourth = std::pow(rough_of_bits(node.fourth) * cell * scale, 4);
-    const double place = length_of_bits(node.deviation) * scale;
     const auto square = [](double x) { return x * x; };
+    const double root_of_third = rough_of_bits(node.third) * cell * scale;
+    const double uneven = square(rough_of_bits(node.uneven) * cell * scale);
+    const double third = root_of_third * square(root_of_third);
+    const double fourth = square(square(rough_of_bits(node.fourth) * cell * scale));
+    const double place = length_of_bits(node.deviation) * scale;
     // A node errs by no more than all of its light, here and there.
     const double shape = std::min(2 * response.value, square(uneven) * response.second / 20 +
                                                           square(third) * response.third / 360 +
@@ -369,16 +373,13 @@ class Cutter {
     weighed.area = static_cast<float>(response.area);
     weighed.scale = static_cast<std::uint8_t>(
         errors_.scale_of(2 * std::sqrt(square(footprint) + square(place) + square(size))));
+    weighed.cell = static_cast<std::uint32_t>(
+        errors_.cell_at(weighed.scale, at.x - frame_.crop.x, at.y - frame_.crop.y));
     weighed.light = static_cast<float>(light * amplitude);
-    for (std::size_t c = 0; c < 3; ++c)
-      weighed.color[c] = static_cast<float>(color.mean[c]);
+    weighed.color = color.mean;
     weighed.fate = Fate::weighed;
   }
 
-  std::size_t cell_of(const Weighed& node) const {
-    return errors_.cell_at(node.scale, static_cast<double>(node.x) - frame_.crop.x,
-                           static_cast<double>(node.y) - frame_.crop.y);
-  }
   // Its part of the variance of a pixel of its cell.
   double variance_of(const Weighed& node) const {
     const double pixels = errors_.pixels(node.scale);
@@ -404,7 +405,7 @@ class Cutter {
   }
   void add_light(const Weighed& node, ErrorCells& light) const {
     const double pixels = light.pixels(node.scale);
-    light.at(node.scale, cell_of(node)) += static_cast<double>(node.light) / (pixels * pixels);
+    light.at(node.scale, node.cell) += static_cast<double>(node.light) / (pixels * pixels);
   }
 
   // The variance up to which nodes of a cell are kept at this level: those that err least, as long
@@ -429,7 +430,7 @@ class Cutter {
     for (const Frontier& frontier : frontiers) {
       for (const Weighed& node : frontier.weighed) {
         if (node.fate != Fate::weighed) continue;
-        const std::size_t cell = cell_of(node);
+        const std::size_t cell = node.cell;
         const double variance = variance_of(node);
         const int bin = bin_of(variance, left[node.scale][cell]);
         if (bin < bins) sums[node.scale][cell * bins + static_cast<std::size_t>(bin)] += variance;
@@ -452,11 +453,11 @@ class Cutter {
   }
 
   bool is_kept(const Weighed& node, const std::vector<std::vector<double>>& thresholds) const {
-    const std::size_t cell = cell_of(node);
+    const std::size_t cell = node.cell;
     const double variance = variance_of(node);
     if (!(variance > 0)) return true;
-    const double most =
-        std::pow(standard_deviations / most_of_one_node, 2) * single_[node.scale][cell];
+    constexpr double deviations = standard_deviations / most_of_one_node;
+    const double most = deviations * deviations * single_[node.scale][cell];
     const double largest = static_cast<double>(node.error2) / static_cast<double>(node.area);
     return variance < thresholds[node.scale][cell] && largest <= most;
   }
@@ -478,7 +479,7 @@ class Cutter {
 
   void keep(const Frontier& frontier, std::size_t i, std::size_t level) {
     const Weighed& node = frontier.weighed[i];
-    errors_.at(node.scale, cell_of(node)) += variance_of(node);
+    errors_.at(node.scale, node.cell) += variance_of(node);
     add_light(node, light_);
     draw_node(parts_[frontier.part], frontier.items[i], level, node);
     ++kept_;
