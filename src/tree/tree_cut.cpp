@@ -26,9 +26,9 @@ namespace splotchcl {
 namespace {
 
 // Of the error that is left at a level, so much may be taken by the nodes that are kept there.
-constexpr double part_kept_at_a_level = 0.5;
+constexpr double part_kept_at_a_level = 0.3;
 // A node alone may err by this many of its own standard deviations.
-constexpr double most_of_one_node = 3.2;
+constexpr double most_of_one_node = 5;
 // Nearer to the camera than so many times their reach, or widths, nodes are opened.
 constexpr double nearest_reaches = 20, nearest_widths = 12;
 constexpr double standard_deviations = 6;
@@ -334,7 +334,7 @@ class Cutter {
       const float spread = part.colors->spread(values[before], values[after]) *
                                std::max({factors[before], factors[k], factors[after]}) +
                            std::abs(factors[after] - factors[before]);
-      variance += spread * spread / 4 * share * share;
+      variance += spread * spread / 12 * share * share;
     }
     color.variance = static_cast<double>(variance);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -424,8 +424,7 @@ class Cutter {
     const auto bin_of = [&](double variance, double all) {
       if (!(variance > 0)) return 0;
       if (!(all > 0)) return bins;
-      return static_cast<int>(std::clamp(std::floor(std::log2(variance / all)) + bins + 1, 0.0,
-                                         static_cast<double>(bins)));
+      return std::clamp(std::ilogb(variance / all) + bins + 1, 0, bins);
     };
     for (const Frontier& frontier : frontiers) {
       for (const Weighed& node : frontier.weighed) {
@@ -465,6 +464,7 @@ class Cutter {
   Frontier take(const Frontier& frontier, std::size_t level,
                 const std::vector<std::vector<double>>& thresholds) {
     Frontier next{frontier.part, {}, {}};
+    next.items.reserve(4 * frontier.items.size());
     for (std::size_t i = 0; i < frontier.items.size(); ++i) {
       const Weighed& node = frontier.weighed[i];
       if (node.fate == Fate::unseen) continue;
