@@ -164,17 +164,16 @@ __attribute__((noinline)) static void project_block(
       } else if (OUTPUT_SPLATS) {
         splat = splat_of(&found, k);
       }
-      float y = 0.0f;
-      const Copies copies = copies_of(&found, k, &splat, p, &y);
-      for (int copy = copies.first; copy <= copies.last; copy += copies.step) {
+      const Copies copies = copies_of(&found, k, &splat, p);
+      for (int number = copies.first; number <= copies.last; ++number) {
         if (OUTPUT_SPLATS) {
+          const Copy copy = copy_of_number(number, copies);
           Splat listed = splat;
-          if (COPIES) put_copy(&listed, copy, y, p);
+          if (COPIES) put_copy(&listed, copy, p);
           __global Splat* kept = to.splats + slot;
           ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
           store_splat(&found, k, listed, kept);
-          if (EXTENDED_NUMBERS)
-            to.extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
+          if (EXTENDED_NUMBERS) to.extended_splats[slot] = copy_of(copy, extended, e);
           if (COUNT_TILES) {
             list_splat(listed, kept, grids + grid_of(listed), is_visible, count, to.tiles + slot,
                        &waiting);

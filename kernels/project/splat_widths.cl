@@ -34,6 +34,7 @@ typedef struct SplatLanes {
 typedef struct WidthLanes {
   VALUE h;                  // in lengths
   VALUE sigma_true, sigma;  // without and with kernel.min_radius and NARROWEST_SIGMA
+  VALUE sigma_weighed;      // the same, before panoramas keep it from being wider than WIDEST_ANGLE
   VALUE sigma_x;            // of a panorama
   VALUE nearer;             // by which it lies nearer to the pole there
   FaceEllipse face;         // on a face of a cube
@@ -60,7 +61,7 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
   const VALUE sigma = p.min_radius > 0.0f
                           ? sqrt(widths.sigma_true * widths.sigma_true + sigma_floor * sigma_floor)
                           : widths.sigma_true;
-  widths.sigma = max(sigma, (VALUE)(NARROWEST_SIGMA));
+  widths.sigma = widths.sigma_weighed = max(sigma, (VALUE)(NARROWEST_SIGMA));
   if (FACE_OF_CUBE) {
     const float per_focal = 1.0f / p.pixels_per_length;
     widths.face = face_ellipse(widths.sigma, (view.x - p.center_x) * per_focal,
@@ -68,6 +69,7 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
     widths.part = face_part(widths.face, (VALUE)(p.reach), p);
   }
   if (COPIES) {
+    widths.sigma = min(widths.sigma, (VALUE)(WIDEST_ANGLE * p.pixels_per_length));
     const PanoramaEllipse ellipse =
         panorama_ellipse(widths.sigma, view.cos_latitude, view.sine_latitude, p);
     widths.sigma_x = ellipse.sigma_x;
@@ -93,9 +95,9 @@ INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widt
     // The radius cancels out.
     if (p.weight_model == WEIGHT_CONSTANT) {
       return raw * (p.weight_scale * (p.kernel_width / p.length_scale)) *
-             (view.scale / widths.sigma);
+             (view.scale / widths.sigma_weighed);
     }
-    return column_weight(raw, widths.h, p) * (widths.sigma_true / widths.sigma);
+    return column_weight(raw, widths.h, p) * (widths.sigma_true / widths.sigma_weighed);
   }
   const INTEGER narrow = widths.sigma_true < NARROWEST_SIGMA;
   if (!ANY(narrow)) return column_weight(raw, widths.h, p);

@@ -222,6 +222,13 @@ std::vector<HardCase> promise_cases() {
             "projection equirectangular height 32 tolerance 1e-5 turned 1 group scatter places 30 "
             "sigma 1 peak 20000 depth 50",
             {LightPlan::emission}),
+      found("WideCloudsOnTheHorizonOfAPanorama",
+            "they are mirrored over both poles, of which a rounding would choose one",
+            "projection equirectangular height 32 tolerance 1e-5 turned 1 group lattice places 9 "
+            "sigma 20 depth 86"),
+      found("CloudsAsWideAsAPanorama", "they have light all around the sky, many times over",
+            "projection equirectangular height 32 turned 1 min_radius 3 group lattice places 9 "
+            "sigma 90 peak 0.3"),
       found("StarsOfACubeFaceAt1e_5", "the same of quotients whose widths grow towards the corners",
             "projection cube width 48 tolerance 1e-5 turned 1 group scatter places 30 sigma 1 peak "
             "20000 depth 50",
