@@ -125,6 +125,8 @@ static inline Copies copies_in_picture(float x, float y, float radius_x, float r
                                        const ProjectParameters p) {
   const float half_period = 0.5f * p.period;
   const float most = (float)MOST_HALF_PERIODS;
+  // A pixel more, so that a crop has no fewer for roundings.
+  radius_x += 1.0f;
   const int first = (int)clamp(ceil((p.left - radius_x - x) / half_period), -most, most + 1.0f);
   const int last =
       (int)clamp(floor((p.right_end + radius_x - x) / half_period), -most - 1.0f, most);
