@@ -18,6 +18,8 @@ struct Certificate {
   BlockErrors blocks;
   // What is to be added to the plan's, where the promise is not kept.
   SplatNeeds needs;
+  // Where one was asked for (FramePlan::certify): else nothing bounds what colors do.
+  bool is_bound = true;
   // Nothing but extended precision gives what is promised.
   bool needs_extended = false;
   bool keeps_promise() const { return error_of_promise <= 1; }
