@@ -249,6 +249,11 @@ class FrameErrors {
 
 }  // namespace
 
+bool needs_depths(const Frame& frame, const FramePlan& plan) {
+  if (plan.light == LightPlan::emission) return false;
+  return plan.needs_sort() || parts_of_colors(frame, plan).of_brightest > 0;
+}
+
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan) {
   constexpr std::size_t blocks_at_once = 256;

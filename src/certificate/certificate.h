@@ -33,9 +33,12 @@ struct CollectedSplats {
   // where there are no slabs.
   std::vector<float> of_slabs;
   double around = 0;  // the part of the promise that clouds around the camera spend
-  // Of matter that absorbs: how deep the deepest channel of each block is.
+  // How deep the deepest channel of each block is, where needs_depths().
   std::vector<float> depths = {};
 };
+
+// Whether CollectedSplats::depths are looked at: in order, and in sums where colors are rounded.
+bool needs_depths(const Frame& frame, const FramePlan& plan);
 
 // docs/dev/accuracy.md ("Checked after drawing") derives it and says what is a bound.
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,

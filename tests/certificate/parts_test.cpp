@@ -193,6 +193,18 @@ double part_of_knots(const std::vector<Rgb>& knots) {
   return of_brightest(frame, certified(frame));
 }
 
+TEST(Depths, AreLookedAtInOrderAndWhereColorsOfMatterAreRounded) {
+  Frame frame = star_among({{1, 0, 0}, {0, 0, 1}}, {Scaling::linear, 0, 1});
+  const auto needed = [&frame] { return needs_depths(frame, make_plan(frame)); };
+  EXPECT_FALSE(needed()) << "nothing absorbs";
+  frame.components.front().absorption.kind = Absorption::Kind::as_emission;
+  EXPECT_TRUE(needed());
+  frame.components.front().particles.color = {};
+  EXPECT_FALSE(needed()) << "all have one color";
+  frame.components.front().absorption = {Absorption::Kind::gray, 1};
+  EXPECT_TRUE(needed()) << "in order";
+}
+
 TEST(ColorErrors, HaveABoundUnlessAPaletteIsBlackElsewhereThanWhereItBegins) {
   const auto has_bound = [](const std::vector<Rgb>& knots) {
     const Frame frame = star_among(knots, {Scaling::linear, 0, 1});
