@@ -34,9 +34,8 @@ KERNEL_BODY void count_block(const BinParameters* of_band, __global const Grid* 
                              __global uint* counts, __global uint* tiles, __global Splat* in_order,
                              uint block) {
   const BinParameters p = *of_band;
-  __global uint* count = counts + (size_t)block * p.tile_count;
-  for (uint t = 0; t < p.tile_count; ++t)
-    count[t] = 0;
+  const CountedTiles counted = counted_tiles(counts, block, p.block_count, p.tile_count);
+  clear_counts(counted, p.tile_count, p.has_parts);
   WaitingCounts waiting = no_waiting_counts();
   const uint begin = p.first + block * p.stride;
   const uint end = min(begin + p.length, p.end);
@@ -54,12 +53,13 @@ KERNEL_BODY void count_block(const BinParameters* of_band, __global const Grid* 
     const uint touched = tiles_of(splat, *grid);
 #endif
     tiles[slot - p.first] = touched;
-    count_in_tiles(touched, kept, grid, 1, count, &waiting);
+    count_in_tiles(touched, kept, grid, 1, counted, &waiting);
   }
-  count_waiting(&waiting, count);
+  count_waiting(&waiting, counted.tiles);
 }
 
-// counts[block * tile_count + tile]. Splats in sorted order lie all over memory: they are
+// counts[block * tile_count + tile], and behind those of all blocks the same of what comes behind
+// all others, where there may be any. Splats in sorted order lie all over memory: they are
 // fetched once, here, and kept in order for the scatter.
 __kernel void bin_count(const BinParameters p, __global const Grid* grids,
                         __global const Splat* splats, __global const uint* order,
@@ -99,7 +99,7 @@ KERNEL_BODY void scan_blocks_of_tiles(uint tile_count, uint block_count, __globa
 // as many tiles as a vector holds: what they count lies side by side.
 __kernel void bin_scan_blocks(const BinParameters p, __global uint* counts,
                               __global uint* lengths) {
-  scan_blocks_of_tiles(p.tile_count, p.block_count, counts, lengths,
+  scan_blocks_of_tiles(p.tile_count, (1u + p.has_parts) * p.block_count, counts, lengths,
                        get_global_id(0) * TILES_OF_SCAN);
 }
 
@@ -133,7 +133,7 @@ __kernel void bin_scan_tiles(const BinParameters p, __global const uint* lengths
 typedef struct ListedBand {
   uint first_tile, tiles;
   __global const uint* starts;
-  __global uint* count;  // of the block's entries in each tile so far
+  CountedTiles counted;  // of the block's entries in each tile so far
   __global TileSplat* entries;
 } ListedBand;
 
@@ -143,17 +143,27 @@ INLINED int is_of_band(const ListedBand band, uint tile) {
 
 // The place for the next entry of a tile of the band.
 INLINED __global TileSplat* next_entry(const ListedBand band, uint tile) {
-  return band.entries + (band.starts[tile] + band.count[tile]++);
+  return band.entries + (band.starts[tile] + band.counted.tiles[tile]++);
+}
+INLINED __global TileSplat* next_listed(const ListedBand band, int is_behind, uint tile) {
+  __global uint* count = is_behind ? band.counted.behind : band.counted.tiles;
+  return band.entries + (band.starts[tile] + count[tile]++);
 }
 
 #if EXTENDED_NUMBERS
 INLINED void list_slot(const ListedBand band, const Splat splat, const Grid grid, uint touched,
                        uint slot) {
-  const int4 range = unpack_tiles(touched, splat, grid);
-  for (int ty = range.z; ty <= range.w; ++ty) {
-    for (int tx = range.x; tx <= range.y; ++tx) {
+  ListedTiles listed;
+  if (touched == FOUND_AGAIN) {
+    listed = find_lists(splat, grid);
+  } else {
+    listed.range = unpack_tiles(touched);
+    listed.is_behind = 0;
+  }
+  for (int ty = listed.range.z; ty <= listed.range.w; ++ty) {
+    for (int tx = listed.range.x; tx <= listed.range.y; ++tx) {
       const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
-      if (is_of_band(band, tile)) next_entry(band, tile)->slot = slot;
+      if (is_of_band(band, tile)) next_listed(band, listed.is_behind, tile)->slot = slot;
     }
   }
 }
@@ -165,7 +175,8 @@ __attribute__((noinline)) static void list_far_or_wide(
     __global const float* knots) {
   const Splat splat = *from;
   const Grid grid = grids[grid_of(splat)];
-  const int4 range = tile_range(splat, grid);
+  const ListedTiles listed = find_lists(splat, grid);
+  const int4 range = listed.range;
   TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, *p);
   for (int ty = range.z; ty <= range.w; ++ty) {
     for (int tx = range.x; tx <= range.y; ++tx) {
@@ -173,7 +184,7 @@ __attribute__((noinline)) static void list_far_or_wide(
       if (!is_of_band(*band, tile)) continue;
       set_place(&entry, splat, grid,
                 (int2)(tx * TILE_WIDTH + TILE_WIDTH / 2, ty * TILE_HEIGHT + TILE_HEIGHT / 2));
-      *next_entry(*band, tile) = entry;
+      *next_listed(*band, listed.is_behind, tile) = entry;
     }
   }
 }
@@ -233,7 +244,7 @@ KERNEL_BODY void scatter_block(const BinParameters* of_band, __global const Grid
   band.first_tile = p.first_tile;
   band.tiles = p.end_tile - p.first_tile;
   band.starts = starts;
-  band.count = counts + (size_t)block * p.tile_count;
+  band.counted = counted_tiles(counts, block, p.block_count, p.tile_count);
   band.entries = entries;
   for (uint slot = p.first + block * p.stride; slot < end; ++slot) {
 #if !LIGHT_ORDERED

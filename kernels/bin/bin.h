@@ -48,6 +48,7 @@ struct BinParameters {
   unsigned int first, stride, length;
   unsigned int end;  // slots from here on do not exist
   unsigned int block_count;
+  unsigned int has_parts;  // of some grid's tiles not all are in memory (tiles.cl, CountedTiles)
   unsigned int tile_count;
   unsigned int grid_count;
   unsigned int segment_length;        // entries of a tile's list per work-item or group
@@ -60,10 +61,12 @@ struct BinParameters {
 };
 
 // The tiles of one splat, of the shape for GPUs: so many columns and rows of them from the first
-// on, in a grid of so many in a row.
+// on, in a grid of so many in a row; BEHIND_OTHERS: of the first alone, behind all others of its
+// list (tiles.cl).
 struct SplatTiles {
   unsigned int first, columns, rows, grid_columns;
 };
+#define BEHIND_OTHERS 0xffffffffu
 // Splats of at most so many tiles are counted tile by tile.
 #define FEW_TILES 4
 // Each work-group counts in one of so many copies: of a crowd's splats, which lie in a few tiles,

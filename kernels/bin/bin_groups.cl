@@ -18,12 +18,13 @@ INLINED uint splat_count(const BinParameters p) {
 }
 
 INLINED SplatTiles tiles_of_splat(const Splat splat, const Grid grid) {
-  const int4 range = tile_range(splat, grid);
+  const ListedTiles listed = find_lists(splat, grid);
+  const int4 range = listed.range;
   SplatTiles tiles;
   tiles.first = grid.corner_tile + (uint)(range.z * grid.tiles_x + range.x);
   tiles.columns = (uint)(range.y - range.x + 1);
   tiles.rows = (uint)(range.w - range.z + 1);
-  tiles.grid_columns = (uint)grid.tiles_x;
+  tiles.grid_columns = listed.is_behind ? BEHIND_OTHERS : (uint)grid.tiles_x;
   return tiles;
 }
 
@@ -107,8 +108,9 @@ INLINED uint splat_of_entry(__global const uint* first_entries, uint low, uint e
   return low;
 }
 
-// Entries in the order of splats, and of each splat in that of tiles. The splats of a group's first
-// and last entry are looked for among all, the others between them.
+// Entries in the order of splats, and of each splat in that of tiles. Where there are crops, the
+// tile's number has a bit more: those that come behind all others of its list. The splats of a
+// group's first and last entry are looked for among all, the others between them.
 __kernel OF_GROUPS void bin_emit(const GroupBinParameters p, __global const uint* order,
                                  __global const SplatTiles* tiles,
                                  __global const uint* first_entries,
@@ -126,7 +128,8 @@ __kernel OF_GROUPS void bin_emit(const GroupBinParameters p, __global const uint
   const SplatTiles own = tiles[number];
   const uint k = entry - first_entries[number] + tiles_before(own, p.bin.first_tile);
   const uint tile = own.first + k / own.columns * own.grid_columns + k % own.columns;
-  tiles_of_entries[entry] = tile - p.bin.first_tile;
+  tiles_of_entries[entry] =
+      (tile - p.bin.first_tile) << p.bin.has_parts | (own.grid_columns == BEHIND_OTHERS);
   splats_of_entries[entry] = order[p.bin.first + number];
 }
 
@@ -168,9 +171,9 @@ __kernel OF_GROUPS void bin_make_entries(const GroupBinParameters p, __global co
     own[item] = entry_of(p.bin, splat);
 #else
     const Splat found = splats[splat];
-    own[item] =
-        entry_of(p.bin, found, grids[grid_of(found)],
-                 tiles_of_entries[first + item] + p.bin.first_tile, component_colors, knots);
+    own[item] = entry_of(p.bin, found, grids[grid_of(found)],
+                         (tiles_of_entries[first + item] >> p.bin.has_parts) + p.bin.first_tile,
+                         component_colors, knots);
 #endif
   }
   barrier(CLK_LOCAL_MEM_FENCE);

@@ -1,5 +1,5 @@
 // The tiles of LANES splats at a time, as tiles.cl packs them; FOUND_AGAIN where that is left to
-// tile_range().
+// find_lists().
 #include "kernels/bin/tiles.cl"
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"

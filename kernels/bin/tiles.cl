@@ -20,26 +20,50 @@ INLINED float2 center_on_grid(const Splat splat, const Grid grid) {
 }
 
 // The tile next to a splat that is only listed (splat.h), or that touches none: the check after
-// drawing is to know of it.
-INLINED int4 tile_beside(const Splat splat, const Grid grid) {
-  const float2 first = (float2)((float)grid.first_x, (float)grid.first_y);
-  const float2 size =
-      (float2)((float)(grid.tiles_x * TILE_WIDTH), (float)(grid.tiles_y * TILE_HEIGHT));
+// drawing is to know of it. Of those from `first` on, so many pixels.
+INLINED int4 nearest_tile(const Splat splat, float2 first, float2 size, const Grid grid) {
   const float2 nearest = min(max(center_on_grid(splat, grid), first), first + size - 1.0f);
   const int column = (int)nearest.x / TILE_WIDTH, row = (int)nearest.y / TILE_HEIGHT;
   return (int4)(column, column, row, row);
 }
 
-// Of the tiles that a splat touches, those in memory, or the one beside it.
-INLINED int4 listed_tiles(int4 touched, const Splat splat, const Grid grid) {
-  if (!grid.is_part) return touched;
-  const int4 part = tiles_in_memory(touched, grid);
-  return part.x > part.y ? tile_beside(splat, grid) : part;
+INLINED int4 tile_beside(const Splat splat, const Grid grid) {
+  const int columns = (grid.width + TILE_WIDTH - 1) / TILE_WIDTH;
+  const int rows = (grid.height + TILE_HEIGHT - 1) / TILE_HEIGHT;
+  const float2 size = (float2)((float)(columns * TILE_WIDTH), (float)(rows * TILE_HEIGHT));
+  return nearest_tile(splat, (float2)(0.0f, 0.0f), size, grid);
 }
 
-// First and last pixels (tile_range) of a splat so wide that its units are pixels or more, or that
-// its radius is beyond integers. First pixels are turned round, so that first and last ones are
-// found alike: the last whole number below, as floor() is a call on PoCL. Clamped before the
+// The same of the tiles in memory.
+INLINED int4 tile_in_memory_beside(const Splat splat, const Grid grid) {
+  const float2 first = (float2)((float)grid.first_x, (float)grid.first_y);
+  const float2 size =
+      (float2)((float)(grid.tiles_x * TILE_WIDTH), (float)(grid.tiles_y * TILE_HEIGHT));
+  return nearest_tile(splat, first, size, grid);
+}
+
+// In which lists a splat is. Where it is in none of those of the tiles in memory, but only in
+// others of the whole picture, it is in the list beside it, behind all that belong there: lists are
+// cut by their length, and those of a crop are to be cut as those of the picture.
+typedef struct ListedTiles {
+  int4 range;
+  int is_behind;
+} ListedTiles;
+
+INLINED ListedTiles listed_tiles(int4 in_picture, const Splat splat, const Grid grid) {
+  ListedTiles listed;
+  listed.range = in_picture;
+  listed.is_behind = 0;
+  if (!grid.is_part) return listed;
+  listed.range = tiles_in_memory(in_picture, grid);
+  listed.is_behind = listed.range.x > listed.range.y;
+  if (listed.is_behind) listed.range = tile_in_memory_beside(splat, grid);
+  return listed;
+}
+
+// First and last pixels (tiles_in_picture) of a splat so wide that its units are pixels or more, or
+// that its radius is beyond integers. First pixels are turned round, so that first and last ones
+// are found alike: the last whole number below, as floor() is a call on PoCL. Clamped before the
 // conversion: a splat close to the camera may lie anywhere.
 static inline int4 pixels_of_wide(const Splat splat, const Grid grid) {
   const float2 center = center_on_grid(splat, grid);
@@ -61,9 +85,10 @@ INLINED int2 pixels_within(int place, int radius, int middle, int bits) {
                 ((place + radius - to_center) >> bits) + middle);
 }
 
-// Tiles of its grid that a splat's square touches: x range in .x .y, y range in .z .w. With room
-// for the rounding of the center; compositing knows it better.
-INLINED int4 tile_range(const Splat splat, const Grid grid) {
+// Tiles of its grid in the whole picture that a splat's square touches, or the one beside it: x
+// range in .x .y, y range in .z .w. With room for the rounding of the center; compositing knows it
+// better.
+INLINED int4 tiles_in_picture(const Splat splat, const Grid grid) {
   if (splat.radius < 0.0f) return tile_beside(splat, grid);
   const int bits = place_bits_of(splat, grid);
   const float most_units = 1073741000.0f;  // as places are
@@ -84,22 +109,26 @@ INLINED int4 tile_range(const Splat splat, const Grid grid) {
     last_y = rows.y < grid.height ? rows.y : grid.height - 1;
   }
   if (first_x > last_x || first_y > last_y) return tile_beside(splat, grid);
-  const int4 range = (int4)((uint)first_x / TILE_WIDTH, (uint)last_x / TILE_WIDTH,
-                            (uint)first_y / TILE_HEIGHT, (uint)last_y / TILE_HEIGHT);
-  return listed_tiles(range, splat, grid);
+  return (int4)((uint)first_x / TILE_WIDTH, (uint)last_x / TILE_WIDTH, (uint)first_y / TILE_HEIGHT,
+                (uint)last_y / TILE_HEIGHT);
+}
+
+INLINED ListedTiles find_lists(const Splat splat, const Grid grid) {
+  return listed_tiles(tiles_in_picture(splat, grid), splat, grid);
 }
 
 // A range of tiles in a word: the first column and row, and how many of both. Ranges that do not
 // fit are found again, and those of splats in coarser units than their grid's, or of a pixel and
-// more.
+// more, or behind all others of a list.
 #define FIRST_TILE_BITS 10
 #define TILE_COUNT_BITS 6
 #define FOUND_AGAIN 0xffffffffu
 #define ONE_TILE (1u << 2 * FIRST_TILE_BITS | 1u << (2 * FIRST_TILE_BITS + TILE_COUNT_BITS))
 
-static inline uint pack_tiles(int4 range) {
+static inline uint pack_tiles(const ListedTiles listed) {
+  const int4 range = listed.range;
   const int columns = range.y - range.x + 1, rows = range.w - range.z + 1;
-  const int fits = max(range.x, range.z) < 1 << FIRST_TILE_BITS &&
+  const int fits = !listed.is_behind && max(range.x, range.z) < 1 << FIRST_TILE_BITS &&
                    max(columns, rows) < (1 << TILE_COUNT_BITS) - 1;
   if (!fits) return FOUND_AGAIN;
   return (uint)range.x | (uint)range.z << FIRST_TILE_BITS | (uint)columns << 2 * FIRST_TILE_BITS |
@@ -119,8 +148,8 @@ static inline uint rows_of_tiles(uint packed) {
   return packed >> (2 * FIRST_TILE_BITS + TILE_COUNT_BITS);
 }
 
-INLINED int4 unpack_tiles(uint packed, const Splat splat, const Grid grid) {
-  if (packed == FOUND_AGAIN) return tile_range(splat, grid);
+// Not of FOUND_AGAIN.
+INLINED int4 unpack_tiles(uint packed) {
   const int x = (int)first_column_of_tiles(packed), y = (int)first_row_of_tiles(packed);
   const int columns = (int)columns_of_tiles(packed), rows = (int)rows_of_tiles(packed);
   return (int4)(x, x + columns - 1, y, y + rows - 1);
@@ -128,7 +157,7 @@ INLINED int4 unpack_tiles(uint packed, const Splat splat, const Grid grid) {
 
 INLINED uint tiles_of(const Splat splat, const Grid grid) {
   if (grid.place_bits <= 0 || coarser_of(splat) > 0) return FOUND_AGAIN;
-  return pack_tiles(tile_range(splat, grid));
+  return pack_tiles(find_lists(splat, grid));
 }
 
 // Where those in the whole picture are not known, or not all of them are in memory. A call, as the
@@ -138,7 +167,7 @@ __attribute__((noinline)) static uint tiles_found_again(uint in_picture, __globa
   const Splat splat = *from;
   const Grid grid = *of_splat;
   if (in_picture == FOUND_AGAIN) return tiles_of(splat, grid);
-  return pack_tiles(listed_tiles(unpack_tiles(in_picture, splat, grid), splat, grid));
+  return pack_tiles(listed_tiles(unpack_tiles(in_picture), splat, grid));
 }
 
 // Of a splat whose tiles in the whole picture are known, unless they are FOUND_AGAIN.
@@ -148,10 +177,33 @@ INLINED uint tiles_in_lists(uint in_picture, __global const Splat* splat,
   return tiles_found_again(in_picture, splat, grid);
 }
 
+// What a block counts in each tile, and of it behind all others of a list. Where all tiles are in
+// memory there is no room for the latter, nor need of it.
+typedef struct CountedTiles {
+  __global uint *tiles, *behind;
+} CountedTiles;
+
+INLINED CountedTiles counted_tiles(__global uint* counts, uint block, uint block_count,
+                                   uint tile_count) {
+  CountedTiles counted;
+  counted.tiles = counts + (size_t)block * tile_count;
+  counted.behind = counted.tiles + (size_t)block_count * tile_count;
+  return counted;
+}
+
+INLINED void clear_counts(const CountedTiles counted, uint tile_count, int has_parts) {
+  for (uint t = 0; t < tile_count; ++t)
+    counted.tiles[t] = 0;
+  for (uint t = 0; has_parts && t < tile_count; ++t)
+    counted.behind[t] = 0;
+}
+
 __attribute__((noinline)) static void count_one_by_one(__global const Splat* splat,
                                                        __global const Grid* grid,
-                                                       __global uint* count) {
-  const int4 range = tile_range(*splat, *grid);
+                                                       const CountedTiles counted) {
+  const ListedTiles listed = find_lists(*splat, *grid);
+  const int4 range = listed.range;
+  __global uint* count = listed.is_behind ? counted.behind : counted.tiles;
   for (int ty = range.z; ty <= range.w; ++ty) {
     for (int tx = range.x; tx <= range.y; ++tx)
       ++count[grid->corner_tile + (uint)(ty * grid->tiles_x + tx)];
@@ -201,11 +253,12 @@ INLINED uint has_several_tiles(uint packed) {
 // Counts a splat in the tiles that it touches, at the latest when those that wait are counted. One
 // that is not visible, of ONE_TILE, counts for nothing.
 INLINED void count_in_tiles(uint tiles, __global const Splat* splat, __global const Grid* grid,
-                            uint is_visible, __global uint* count, WaitingCounts* waiting) {
+                            uint is_visible, const CountedTiles counted, WaitingCounts* waiting) {
   if (tiles == FOUND_AGAIN) {
-    count_one_by_one(splat, grid, count);
+    count_one_by_one(splat, grid, counted);
     return;
   }
+  __global uint* count = counted.tiles;
   const uint tiles_x = (uint)grid->tiles_x;
   const uint corner =
       grid->corner_tile + first_row_of_tiles(tiles) * tiles_x + first_column_of_tiles(tiles);

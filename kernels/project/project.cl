@@ -45,7 +45,7 @@ INLINED void count_key(uint bin, __global uint* key_counts, KeyBins* bins) {
 
 // `kept` is where the splat lies; `tiles` takes which it touches, where it does not hold them.
 INLINED void list_splat(const Splat listed, __global const Splat* kept, __global const Grid* grid,
-                        uint is_visible, __global uint* count, __global uint* tiles,
+                        uint is_visible, const CountedTiles counted, __global uint* tiles,
                         WaitingCounts* waiting) {
   if (WRITES_ALL_LANES && grid->is_part && !is_visible) return;
 #if TILES_IN_SPLAT
@@ -54,7 +54,7 @@ INLINED void list_splat(const Splat listed, __global const Splat* kept, __global
   const uint touched = tiles_of(listed, *grid);
   *tiles = touched;
 #endif
-  count_in_tiles(touched, kept, grid, is_visible, count, waiting);
+  count_in_tiles(touched, kept, grid, is_visible, counted, waiting);
 }
 
 INLINED uint corner_tile_of(const SplatArrays* found, uint k, __global const Grid* grids) {
@@ -138,9 +138,8 @@ __attribute__((noinline)) static void project_block(
   uint slot = first_slot;
   BlockCounts of_block = no_counts();
   KeyBins bins = no_bins();
-  __global uint* count = to.tile_counts + (size_t)block * p.tile_count;
-  for (uint t = 0; COUNT_TILES && t < p.tile_count; ++t)
-    count[t] = 0;
+  const CountedTiles counted = counted_tiles(to.tile_counts, block, blocks_of(p), p.tile_count);
+  if (COUNT_TILES) clear_counts(counted, p.tile_count, p.has_parts);
   WaitingCounts waiting = no_waiting_counts();
   const int is_left_out = p.leaves_out_blocks && left_out[block] != 0;
   if (is_left_out) of_block.bad = left_out[block] - 1;
@@ -148,7 +147,7 @@ __attribute__((noinline)) static void project_block(
     SplatArrays found;
     if (!find_splats(i, end, &p, width_needs, &e, columns, &of_block, &found)) continue;
     if (COUNTS_ALL_LANES && found.has_known_tiles) {
-      slot = list_all_lanes(&found, slot, to.splats, grids, count);
+      slot = list_all_lanes(&found, slot, to.splats, grids, counted.tiles);
       continue;
     }
     for (uint k = 0; k < LANES; ++k) {
@@ -164,19 +163,18 @@ __attribute__((noinline)) static void project_block(
       } else if (OUTPUT_SPLATS) {
         splat = splat_of(&found, k);
       }
-      float y = 0.0f;
-      const Copies copies = copies_of(&found, k, &splat, p, &y);
-      for (int copy = copies.first; copy <= copies.last; copy += copies.step) {
+      const Copies copies = copies_of(&found, k, &splat, p);
+      for (int number = copies.first; number <= copies.last; ++number) {
         if (OUTPUT_SPLATS) {
+          const Copy copy = copy_of_number(number, copies);
           Splat listed = splat;
-          if (COPIES) put_copy(&listed, copy, y, p);
+          if (COPIES) put_copy(&listed, copy, p);
           __global Splat* kept = to.splats + slot;
           ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
           store_splat(&found, k, listed, kept);
-          if (EXTENDED_NUMBERS)
-            to.extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
+          if (EXTENDED_NUMBERS) to.extended_splats[slot] = copy_of(copy, extended, e);
           if (COUNT_TILES) {
-            list_splat(listed, kept, grids + grid_of(listed), is_visible, count, to.tiles + slot,
+            list_splat(listed, kept, grids + grid_of(listed), is_visible, counted, to.tiles + slot,
                        &waiting);
           }
         }
@@ -189,7 +187,7 @@ __attribute__((noinline)) static void project_block(
       }
     }
   }
-  if (COUNT_TILES) count_waiting(&waiting, count);
+  if (COUNT_TILES) count_waiting(&waiting, counted.tiles);
   of_block.visible = slot - first_slot;
   to.counts[p.first_block + block] = of_block;
   if (COUNT_KEYS) to.key_bins[block] = bins;

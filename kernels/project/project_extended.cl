@@ -214,6 +214,8 @@ static inline void extended_shape(ExtendedPlace place, Extended sigma, float pea
   const Extended sigma_x = extended_of(ellipse.sigma_x), sigma_y = extended_of(ellipse.sigma_y);
   const float area = 1.0f;
 #elif ELLIPSES
+  const Extended widest = extended_scaled(extended_pair(e.pixels_per_length), WIDEST_ANGLE);
+  if (extended_less(widest, sigma)) sigma = widest;
   const ExtendedEllipse ellipse =
       extended_panorama_ellipse(sigma, place.cos_latitude, place.sine_latitude, e);
   const Extended sigma_x = ellipse.sigma_x;
@@ -250,7 +252,7 @@ static inline void extended_shape(ExtendedPlace place, Extended sigma, float pea
   extended->along_x.sigma = pair_of(sigma_x);
   extended->along_x.radius = radius_of(sigma_x, extent, e) * farther;
   splat->along_x.sigma = high_part(sigma_x);
-  // Copies lie up to four periods farther.
+  // Copies lie up to four periods farther, or three and as far over a pole.
   splat->along_x.radius = rounded_radius(extended->along_x.radius, far + 4.0f * p.period);
 #endif
   const float beside =
@@ -312,15 +314,15 @@ static inline int extended_splat(uint i, const ProjectParameters p, const Extend
   return in_rows && (COPIES || in_columns);
 }
 
-// The splat's copy so many half periods to the right; odd ones are mirrored over this pole.
-static inline ExtendedSplat copy_of(int copy, ExtendedSplat splat, int pole,
+static inline ExtendedSplat copy_of(const Copy copy, ExtendedSplat splat,
                                     const ExtendedParameters e) {
   if (!COPIES) return splat;
-  const Extended moved = extended_product(extended_of(0.5f * (float)copy), extended_pair(e.period));
+  const Extended moved =
+      extended_product(extended_of(0.5f * (float)copy.half_periods), extended_pair(e.period));
   splat.x = pair_of(extended_sum(extended_pair(splat.x), moved));
-  if ((copy & 1) != 0) {
-    const Extended mirrored =
-        extended_difference(extended_pair(OF_POLE(e.twice_pole, pole)), extended_pair(splat.y));
+  if ((copy.half_periods & 1) != 0) {
+    const Extended mirrored = extended_difference(extended_pair(OF_POLE(e.twice_pole, copy.pole)),
+                                                  extended_pair(splat.y));
     splat.y = pair_of(mirrored);
   }
   return splat;

@@ -84,21 +84,19 @@ __kernel OF_GROUPS void project(
     spread(lanes, 0, &found);
     splat = splat_of(&found, 0);
   }
-  float y = 0.0f;
   Copies copies = one_copy();
   if (COPIES && count) {
-    copies = copies_of(&found, 0, &splat, p, &y);
-    count =
-        copies.first > copies.last ? 0u : (uint)((copies.last - copies.first) / copies.step + 1);
+    copies = copies_of(&found, 0, &splat, p);
+    count = copies.first > copies.last ? 0u : (uint)(copies.last - copies.first + 1);
   }
   uint total;
   uint slot = p.first_slot + offsets[block] + group_scan(count, sums, &total);
   for (uint k = 0; OUTPUT_SPLATS && k < count; ++k, ++slot) {
-    const int copy = copies.first + (int)k * copies.step;
+    const Copy copy = copy_of_number(copies.first + (int)k, copies);
     Splat listed = splat;
-    if (COPIES) put_copy(&listed, copy, y, p);
+    if (COPIES) put_copy(&listed, copy, p);
     splats[slot] = listed;
-    if (EXTENDED_NUMBERS) extended_splats[slot] = copy_of(copy, extended, pole_of(y, p), e);
+    if (EXTENDED_NUMBERS) extended_splats[slot] = copy_of(copy, extended, e);
     if (OUTPUT_KEYS) {
       keys[slot] = (uint)(key >> 16);
       if (!p.sort_by_field) key_ends[slot] = (ushort)key;

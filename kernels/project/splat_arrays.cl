@@ -146,17 +146,16 @@ INLINED Splat splat_of(const SplatArrays* a, uint k) {
 
 // Of a panorama, in which a splat may show several times.
 INLINED Copies copies_of(const SplatArrays* found, uint k, const Splat* splat,
-                         const ProjectParameters p, float* y) {
+                         const ProjectParameters p) {
   if (!COPIES) return one_copy();
   if (EXTENDED_NUMBERS) {
-    *y = pixels_from_middle(splat->y, *splat, p);
-    return copies_in_picture(pixels_from_middle(splat->x, *splat, p), *y, RADIUS_X(*splat),
+    return copies_in_picture(pixels_from_middle(splat->x, *splat, p),
+                             pixels_from_middle(splat->y, *splat, p), RADIUS_X(*splat),
                              splat->radius, p);
   }
   const SplatLanes* const s = &found->lanes;
-  *y = value_of(s->y, k);
-  return copies_in_picture(value_of(s->x, k), *y, value_of(s->radius_x, k), value_of(s->radius, k),
-                           p);
+  return copies_in_picture(value_of(s->x, k), value_of(s->y, k), value_of(s->radius_x, k),
+                           value_of(s->radius, k), p);
 }
 
 static inline uint count_true(INTEGER mask) {

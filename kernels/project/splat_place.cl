@@ -60,13 +60,12 @@ static inline long in_long(struct WideInteger units) {
   return (long)((ulong)units.low | ((ulong)units.high << 32));
 }
 
-// Puts a splat, `y` pixels from the picture's middle, where its copy so many half periods to the
-// right is.
-static inline void put_copy(Splat* splat, int copy, float y, const ProjectParameters p) {
+// Puts a splat where its copy is.
+static inline void put_copy(Splat* splat, const Copy copy, const ProjectParameters p) {
   const uint coarser = splat->component_and_grid >> 24;
-  splat->x += (int)((copy * in_long(p.period_units)) >> (coarser + 1));
-  if ((copy & 1) == 0) return;
-  splat->y = (int)(in_long(OF_POLE(p.twice_pole_units, pole_of(y, p))) >> coarser) - splat->y;
+  splat->x += (int)((copy.half_periods * in_long(p.period_units)) >> (coarser + 1));
+  if ((copy.half_periods & 1) == 0) return;
+  splat->y = (int)(in_long(OF_POLE(p.twice_pole_units, copy.pole)) >> coarser) - splat->y;
 #if FINE_PLACES
   const int fraction_y = -((int)splat->place_fractions >> 16);
   splat->place_fractions = (splat->place_fractions & 0xffffu) | ((uint)fraction_y << 16);

@@ -26,12 +26,23 @@ INLINED VALUE distance_beyond(const SplatLanes s, float left, float right_end, f
   return max(beyond, beyond_x);
 }
 
+// How much farther than their radius splats may be from what is in memory of a coarse grid; from
+// the whole picture a grid's guard.
+INLINED VALUE room_beside(const SplatLanes s, float beside) {
+  return choose((VALUE)(0.0f), (VALUE)(beside), s.grid > 0);
+}
+
 // Whether something of it shows in the whole picture, of splats on grids beside the picture's own.
+// A crop, in which they may be farther from what is in memory, has no other splats than the
+// picture.
 INLINED INTEGER shows_in_picture(const SplatLanes s, const ProjectParameters p) {
   const float left = (float)-p.middle_x, top = (float)-p.middle_y;
   const VALUE beyond =
       distance_beyond(s, left, left + (float)p.width, top, top + (float)p.height, p);
-  return (s.grid == 0) | (beyond <= s.farthest_shown);
+  const INTEGER shows = (s.grid == 0) | (beyond <= s.farthest_shown);
+  if (!p.has_parts) return shows;
+  const VALUE room = room_beside(s, (float)(p.guard + 1));
+  return shows & ((beyond + 0.5f <= s.radius + room) | (beyond <= 2.0f * s.radius));
 }
 
 // By the sign that place_on_grid() gives them.
@@ -46,9 +57,11 @@ INLINED INTEGER are_placed_as_stencils(const SplatLanes s) {
 // nothing of what shows nowhere in it.
 INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
   const VALUE beyond = distance_beyond(*s, p.left, p.right_end, p.top, p.bottom, p);
-  const VALUE room = choose((VALUE)(0.0f), (VALUE)(p.beside), s->grid > 0);
+  const VALUE room = room_beside(*s, p.beside);
+  // Lists of the whole picture have room for roundings (Grid::room), and a crop no less.
+  const float rounding = p.has_parts ? (float)max(p.width, p.height) * 0x1p-20f : 0.0f;
   // The first pixel's center lies half a pixel within.
-  const INTEGER reaches = (beyond + 0.5f <= s->radius + room) & shows_in_picture(*s, p);
+  const INTEGER reaches = (beyond + 0.5f <= s->radius + room + rounding) & shows_in_picture(*s, p);
   if (COPIES) {
     s->visible &= reaches;
     return;

@@ -35,10 +35,11 @@ typedef struct WidthLanes {
   VALUE h;  // in lengths
   // Without and with kernel.min_radius, kernel.footprint and NARROWEST_SIGMA.
   VALUE sigma_true, sigma;
-  VALUE sigma_x;     // of a panorama
-  VALUE nearer;      // by which it lies nearer to the pole there
-  FaceEllipse face;  // on a face of a cube
-  VALUE part;        // face_part()
+  VALUE sigma_weighed;  // the same, before panoramas keep it from being wider than WIDEST_ANGLE
+  VALUE sigma_x;        // of a panorama
+  VALUE nearer;         // by which it lies nearer to the pole there
+  FaceEllipse face;     // on a face of a cube
+  VALUE part;           // face_part()
 } WidthLanes;
 
 // As they are drawn, along y and x, and of the narrower side.
@@ -61,7 +62,7 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
   const VALUE sigma = widened_by > 0.0f
                           ? sqrt(widths.sigma_true * widths.sigma_true + widened_by * widened_by)
                           : widths.sigma_true;
-  widths.sigma = max(sigma, (VALUE)(NARROWEST_SIGMA));
+  widths.sigma = widths.sigma_weighed = max(sigma, (VALUE)(NARROWEST_SIGMA));
   if (FACE_OF_CUBE) {
     const float per_focal = 1.0f / p.pixels_per_length;
     widths.face = face_ellipse(widths.sigma, (view.x - p.center_x) * per_focal,
@@ -69,6 +70,7 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
     widths.part = face_part(widths.face, (VALUE)(p.reach), p);
   }
   if (COPIES) {
+    widths.sigma = min(widths.sigma, (VALUE)(WIDEST_ANGLE * p.pixels_per_length));
     const PanoramaEllipse ellipse =
         panorama_ellipse(widths.sigma, view.cos_latitude, view.sine_latitude, p);
     widths.sigma_x = ellipse.sigma_x;
@@ -94,13 +96,13 @@ INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widt
     // The radius cancels out.
     if (p.weight_model == WEIGHT_CONSTANT) {
       return raw * (p.weight_scale * (p.kernel_width / p.length_scale)) *
-             (view.scale / widths.sigma);
+             (view.scale / widths.sigma_weighed);
     }
-    return column_weight(raw, widths.h, p) * (widths.sigma_true / widths.sigma);
+    return column_weight(raw, widths.h, p) * (widths.sigma_true / widths.sigma_weighed);
   }
   if (p.footprint_sigma > 0.0f) {
-    const VALUE widened = column_weight(raw, widths.sigma / (p.kernel_width * view.scale), p);
-    return weight_of_widened(widened, widths.sigma_true / widths.sigma, p);
+    const VALUE h = widths.sigma_weighed / (p.kernel_width * view.scale);
+    return weight_of_widened(column_weight(raw, h, p), widths.sigma_true / widths.sigma_weighed, p);
   }
   const INTEGER narrow = widths.sigma_true < NARROWEST_SIGMA;
   if (!ANY(narrow)) return column_weight(raw, widths.h, p);

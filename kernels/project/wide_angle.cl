@@ -91,38 +91,60 @@ static inline PanoramaEllipse panorama_ellipse(VALUE sigma, VALUE cos_latitude, 
   return ellipse;
 }
 
-// Whether the lower pole is the nearer one.
-static inline int pole_of(float y, const ProjectParameters p) {
-  return y >= p.center_y;
-}
 // A value of one of both poles. With an index all parameters would be copied to memory.
 #define OF_POLE(values, pole) ((pole) != 0 ? (values)[1] : (values)[0])
 
-// Copies of a splat that reach what is drawn, half a period apart. Odd ones are mirrored over the
-// nearer pole. The sixth is beyond what any cloud has light for.
+// One copy of a splat: so many half periods to the right. Odd ones are mirrored over a pole, 1 is
+// the lower one.
+typedef struct Copy {
+  int half_periods, pole;
+} Copy;
+
+// Those that reach what is drawn, by their number: of each period one that is not mirrored, and
+// those over the poles from which light comes back, one or both.
 typedef struct Copies {
-  int first, last, step;
+  int first, last, mirrored, pole;
 } Copies;
+
+// The seventh is beyond what any cloud has light for: none is wider than WIDEST_ANGLE.
+#define MOST_HALF_PERIODS 6
+#define WIDEST_ANGLE 2.0f
 
 INLINED Copies one_copy(void) {
   Copies copies;
-  copies.first = copies.last = 0;
-  copies.step = 1;
+  copies.first = copies.last = copies.mirrored = copies.pole = 0;
   return copies;
+}
+
+INLINED int is_over_pole(int pole, float y, float radius, const ProjectParameters p) {
+  const float mirrored = OF_POLE(p.twice_pole, pole) - y;
+  return mirrored + radius + 1.0f >= p.top && mirrored - radius - 1.0f <= p.bottom;
 }
 
 static inline Copies copies_in_picture(float x, float y, float radius_x, float radius,
                                        const ProjectParameters p) {
   const float half_period = 0.5f * p.period;
+  const float most = (float)MOST_HALF_PERIODS;
+  // A pixel more, so that a crop has no fewer for roundings.
+  radius_x += 1.0f;
+  const int first = (int)clamp(ceil((p.left - radius_x - x) / half_period), -most, most + 1.0f);
+  const int last =
+      (int)clamp(floor((p.right_end + radius_x - x) / half_period), -most - 1.0f, most);
+  const int over_upper = is_over_pole(0, y, radius, p), over_lower = is_over_pole(1, y, radius, p);
   Copies copies;
-  copies.first = (int)clamp(ceil((p.left - radius_x - x) / half_period), -5.0f, 6.0f);
-  copies.last = (int)clamp(floor((p.right_end + radius_x - x) / half_period), -6.0f, 5.0f);
-  copies.step = 1;
-  const float mirrored = OF_POLE(p.twice_pole, pole_of(y, p)) - y;
-  if (mirrored + radius + 1.0f < p.top || mirrored - radius - 1.0f > p.bottom) {
-    copies.step = 2;
-    copies.first += copies.first & 1;
-    copies.last -= copies.last & 1;
-  }
+  copies.mirrored = over_upper + over_lower;
+  copies.pole = over_upper == 0;
+  copies.first = (first >> 1) * (1 + copies.mirrored) + (first & 1);
+  copies.last = (last >> 1) * (1 + copies.mirrored) + (last & 1) * copies.mirrored;
   return copies;
+}
+
+INLINED Copy copy_of_number(int number, const Copies copies) {
+  const int of_period = 1 + copies.mirrored;
+  const int period = (number + MOST_HALF_PERIODS * of_period) / of_period - MOST_HALF_PERIODS;
+  const int over = number - period * of_period;
+  Copy copy;
+  copy.half_periods = 2 * period + (over > 0);
+  copy.pole = copies.mirrored == 2 ? over - 1 : copies.pole;
+  return copy;
 }

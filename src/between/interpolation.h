@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "between/id_match.h"
 #include "splotchcl/particles.h"
@@ -53,6 +54,7 @@ struct ColumnBetween {
   // Of positions.
   Column first_velocity, second_velocity;  // absent: without tangents
   PathNumbers path;
+  std::string note;  // what a user should know of the paths; mostly nothing
 };
 
 // What a path's numbers follow from.

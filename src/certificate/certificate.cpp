@@ -70,6 +70,25 @@ Certificate even_certificate(const Image& image, double error, double promise) {
   return certificate;
 }
 
+// What colors do: bounded, or where that is not known estimated.
+struct ColorError {
+  double error = 0;
+  bool is_bound = true;
+};
+
+// The picture says little of what opaque channels hide and others show: where not even extended
+// precision would make the bound a part of what is promised, an estimate is left.
+ColorError error_of_colors(const ColorLight& colors, std::size_t block, const BlockLight& light,
+                           const FramePlan& plan, double estimate, double promise) {
+  constexpr double gained_by_extended = 1e-4;  // of the roundings of a color
+  if (!plan.certify || !colors.has_bounds()) return {estimate, false};
+  const double bound = colors.bound_in_block(block, light);
+  const double least = plan.is_extended() ? bound : gained_by_extended * bound;
+  const bool hides_too_much =
+      plan.needs_sort() && least > std::max(estimate, most_of_colors * promise);
+  return hides_too_much ? ColorError{estimate, false} : ColorError{bound, true};
+}
+
 // All that the approximations of a drawn frame do to its blocks of pixels.
 class FrameErrors {
  public:
@@ -85,7 +104,8 @@ class FrameErrors {
         light_behind_(plan.light_behind),
         part_of_layers_(plan.needs_sort() ? plan.layers.part : 0),
         slabs_(plan.slabs),
-        of_slabs_(splats.of_slabs) {
+        of_slabs_(splats.of_slabs),
+        plan_(plan) {
     for (std::size_t octave = 0; octave < lights_.size(); ++octave)
       lights_[octave] = plan.needs.widths[octave].light;
     std::vector<std::optional<OctaveErrors>> octaves(splats.cells.size());
@@ -110,7 +130,7 @@ class FrameErrors {
     share_even_light(pixels, light.even / promise, parts);
     ErrorParts sums;
     if (!of_slabs_.empty()) sums.slabs = static_cast<double>(of_slabs_[block]) / promise;
-    sums.rest = of_colors(block, pixels) +
+    sums.rest = of_colors(block).error +
                 (rest_ + part_of_all_ * light.parts + part_of_layers_ * light.layers) / promise_;
     double light_of_itself = 0;
     for (std::size_t i = 0; i < octaves_.size(); ++i) {
@@ -140,18 +160,19 @@ class FrameErrors {
     return sums;
   }
 
-  // What nothing but more digits of colors makes smaller.
-  double of_colors(std::size_t block, const PixelBlock& pixels) const {
-    if (colors_.are_exact()) return 0;
+  // What nothing but more digits of colors makes smaller, over what is promised.
+  ColorError of_colors(std::size_t block) const {
+    if (colors_.are_exact()) return {};
+    const PixelBlock pixels = pixels_of_block(block, picture_.columns);
     double light = 0;
     for (const OctaveErrors& octave : octaves_)
       light += octave.light(pixels);
-    const double negligible = negligible_part * promise_;
-    return colors_.in_block(block, picture_.blocks[block], light / light_behind_, negligible) /
-           promise_;
-  }
-  double of_colors(std::size_t block) const {
-    return of_colors(block, pixels_of_block(block, picture_.columns));
+    const BlockLight& of_block = picture_.blocks[block];
+    const double estimate =
+        colors_.in_block(block, of_block, light / light_behind_, negligible_part * promise_);
+    ColorError error = error_of_colors(colors_, block, of_block, plan_, estimate, promise_);
+    error.error /= promise_;
+    return error;
   }
 
   std::vector<Part> parts() const { return std::vector<Part>(octaves_.size()); }
@@ -222,15 +243,21 @@ class FrameErrors {
   double light_behind_, part_of_layers_;
   int slabs_;
   const std::vector<float>& of_slabs_;
+  const FramePlan& plan_;
   std::array<double, width_octaves> lights_{};  // that splats counted as
 };
 
 }  // namespace
 
+bool needs_depths(const Frame& frame, const FramePlan& plan) {
+  if (plan.light == LightPlan::emission) return false;
+  return plan.needs_sort() || parts_of_colors(frame, plan).of_brightest > 0;
+}
+
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
                     const FramePlan& plan) {
   constexpr std::size_t blocks_at_once = 256;
-  if (!plan.has_errors_of_splats && !plan.needs_sort()) {
+  if (!plan.has_errors_of_splats && !plan.needs_sort() && !plan.certify) {
     const ColorLight colors(image, splats.depths, frame, plan);
     const double of_colors = colors.are_exact() ? 0 : negligible_part * plan.shares.promise;
     const double error = error_of_all_pixels(splats, plan);
@@ -251,6 +278,7 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double error = blocks[b].sum();
     certificate.blocks.errors[b] = static_cast<float>(error * plan.shares.promise);
+    if (plan.certify) certificate.is_bound &= errors.of_colors(b).is_bound;
     // What is no number is larger than any.
     if (!(error <= certificate.error_of_promise)) {
       certificate.error_of_promise = error;
@@ -262,7 +290,7 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
     }
     const ErrorParts sums = errors.in_block(b, parts);
     errors.add_needs(b, parts, sums, certificate.needs);
-    certificate.needs_extended |= errors.of_colors(b) > most_of_colors;
+    certificate.needs_extended |= errors.of_colors(b).error > most_of_colors;
   }
   return certificate;
 }
@@ -276,9 +304,11 @@ Certificate certify_extended(const CollectedSplats& splats, const Image& image, 
   const PictureLight picture = measure_light(image, splats.depths, frame, plan);
   for (std::size_t b = 0; b < picture.blocks.size(); ++b) {
     const BlockLight& light = picture.blocks[b];
-    const double of_colors = colors.in_block(b, light, 0, 0);
-    const double error =
-        std::max(extended_tolerance, of_extended + of_extended_depth * light.behind + of_colors);
+    const ColorError of_colors =
+        error_of_colors(colors, b, light, plan, colors.in_block(b, light, 0, 0), promise);
+    certificate.is_bound &= of_colors.is_bound;
+    const double error = std::max(extended_tolerance,
+                                  of_extended + of_extended_depth * light.behind + of_colors.error);
     certificate.blocks.errors[b] = static_cast<float>(error);
     certificate.error_of_promise = std::max(certificate.error_of_promise, error / promise);
   }

@@ -18,6 +18,8 @@ struct Certificate {
   BlockErrors blocks;
   // What is to be added to the plan's, where the promise is not kept.
   SplatNeeds needs;
+  // Where one was asked for (FramePlan::certify): else nothing bounds what colors do.
+  bool is_bound = true;
   // Nothing but extended precision gives what is promised.
   bool needs_extended = false;
   bool keeps_promise() const { return error_of_promise <= 1; }
@@ -31,9 +33,12 @@ struct CollectedSplats {
   // where there are no slabs.
   std::vector<float> of_slabs;
   double around = 0;  // the part of the promise that clouds around the camera spend
-  // Of matter that absorbs: how deep the deepest channel of each block is.
+  // How deep the deepest channel of each block is, where needs_depths().
   std::vector<float> depths = {};
 };
+
+// Whether CollectedSplats::depths are looked at: in order, and in sums where colors are rounded.
+bool needs_depths(const Frame& frame, const FramePlan& plan);
 
 // docs/dev/accuracy.md ("Checked after drawing") derives it and says what is a bound.
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,

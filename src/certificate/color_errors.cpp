@@ -47,6 +47,7 @@ double largest_channel(const Rgb& color) {
 void take_largest(const ColorParts& parts, ColorParts& largest) {
   largest.of_brightest = std::max(largest.of_brightest, parts.of_brightest);
   largest.of_itself = std::max(largest.of_itself, parts.of_itself);
+  largest.are_bounds &= parts.are_bounds;
 }
 
 // The brightest channel where it is faintest between two knots: at one of them, or where it becomes
@@ -68,6 +69,25 @@ double faintest_between(const Rgb& before, const Rgb& behind) {
   return least;
 }
 
+bool is_black(const Rgb& color) {
+  return largest_channel(color) == 0;
+}
+
+// How bright the brightest channel is between knots, at least: that is half of the brighter one as
+// an estimate, and where color begins with black, from which on it grows as its place does.
+struct LeastLight {
+  double brightest = 0;
+  bool is_bound = true;
+};
+LeastLight least_between(const Rgb& before, const Rgb& behind, bool begins, bool as_bound) {
+  constexpr double least_of_halfway = 0x1p-10;
+  const double halfway = 0.5 * std::max(largest_channel(before), largest_channel(behind));
+  const double faintest = faintest_between(before, behind);
+  if (!as_bound || (begins && is_black(before))) return {std::max(halfway, faintest)};
+  if (faintest < least_of_halfway * halfway) return {halfway, false};
+  return {faintest};
+}
+
 // Of a channel between knot k - 1 and knot k of `steps`, where the brightest one is as bright.
 ColorParts parts_between(float before, float behind, double brightest, double k, double steps,
                          const PlaceError& place) {
@@ -80,32 +100,35 @@ ColorParts parts_between(float before, float behind, double brightest, double k,
   return {moved / brightest, least > 0 ? moved / least : std::numeric_limits<double>::infinity()};
 }
 
-ColorParts parts_of_knots(const std::vector<Rgb>& knots, const PlaceError& place) {
+ColorParts parts_of_knots(const std::vector<Rgb>& knots, const PlaceError& place, bool as_bound) {
   const auto steps = static_cast<double>(std::max<std::size_t>(knots.size(), 1) - 1);
   ColorParts largest;
   for (std::size_t k = 1; k < knots.size(); ++k) {
     const Rgb &before = knots[k - 1], &behind = knots[k];
-    const double halfway = 0.5 * std::max(largest_channel(before), largest_channel(behind));
-    const double brightest = std::max(halfway, faintest_between(before, behind));
+    if (before == behind) continue;
+    const LeastLight least = least_between(before, behind, k == 1 && place.of_range == 0, as_bound);
+    largest.are_bounds &= least.is_bound;
     for (std::size_t c = 0; c < 3; ++c)
-      take_largest(
-          parts_between(before[c], behind[c], brightest, static_cast<double>(k), steps, place),
-          largest);
+      take_largest(parts_between(before[c], behind[c], least.brightest, static_cast<double>(k),
+                                 steps, place),
+                   largest);
   }
   return largest;
 }
 
-ColorParts parts_of(const DrawnComponent& component, const FieldRoundings& roundings) {
+ColorParts parts_of(const DrawnComponent& component, const FieldRoundings& roundings,
+                    bool as_bound) {
   ColorParts parts;
   if (!component.particles.color.is_absent()) {
     const PlaceError place = error_of_place(component.color, roundings);
-    take_largest(parts_of_knots(component.palette.emission, place), parts);
-    take_largest(parts_of_knots(component.palette.absorption, place), parts);
+    take_largest(parts_of_knots(component.palette.emission, place, as_bound), parts);
+    take_largest(parts_of_knots(component.palette.absorption, place, as_bound), parts);
   }
   if (!component.particles.intensity.is_absent()) {
     const PlaceError place = error_of_place(component.intensity, roundings);
     parts.of_brightest += 2 * (place.of_itself + place.of_range);
     parts.of_itself += 2 * (place.of_itself + place.of_range);
+    parts.are_bounds &= place.of_range == 0;
   }
   return parts;
 }
@@ -116,7 +139,7 @@ ColorParts parts_of_colors(const Frame& frame, const FramePlan& plan) {
   const FieldRoundings roundings = roundings_of(plan);
   ColorParts largest;
   for (const DrawnComponent& component : frame.components)
-    take_largest(parts_of(component, roundings), largest);
+    take_largest(parts_of(component, roundings, plan.certify), largest);
   return largest;
 }
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "certificate/certificate.h"
 #include "device/ranks/splat_packets.h"
 #include "device/stages/project_parameters.h"
 #include "device/walk/leaf_sums.h"
@@ -35,7 +36,7 @@ Image Pipeline::draw() {
   counts_.particles = particle_count(context_.frame);
   Planes planes = context_.plan.needs_sort() ? draw_ordered(compositor_.start()) : draw_sums();
   if (!is_first()) return Image(context_.frame.crop.width, context_.frame.crop.height);
-  if (context_.plan.light != LightPlan::emission) {
+  if (needs_depths(context_.frame, context_.plan)) {
     planes = resolver_.to_picture(std::move(planes));
     deepest_ = resolver_.find_deepest(planes);
   }
@@ -45,7 +46,7 @@ Image Pipeline::draw() {
 CollectedSplats Pipeline::collected() const {
   CollectedSplats collected = certifier_.collected();
   if (context_.plan.slabs > 0) collected.of_slabs = resolver_.errors_of_slabs(slab_light_);
-  if (context_.plan.light != LightPlan::emission)
+  if (needs_depths(context_.frame, context_.plan))
     collected.depths = resolver_.depths_of_blocks(deepest_);
   if (counts_.around > 0) collected.around = Surroundings::share_of_promise;
   return collected;

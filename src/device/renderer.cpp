@@ -90,6 +90,7 @@ void paste(const DrawnPicture& part, const Rectangle& at, DrawnPicture& whole) {
     std::copy_n(part.image.at(0, y), 4 * static_cast<std::ptrdiff_t>(at.width),
                 whole.image.at(at.x, at.y + y));
   }
+  whole.certificate.is_bound &= part.certificate.is_bound;
   BlockErrors& blocks = whole.certificate.blocks;
   const BlockErrors& drawn = part.certificate.blocks;
   for (int y = 0; y < drawn.rows; ++y) {
@@ -229,11 +230,12 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   device.pool.reset_peak();
   particles.begin_frame();
 
-  stats.check.is_bound = plan.certify;
   work = {};
   const FetchedParticles fetched(frame, plan, device.traits);
   const bool in_order = plan.slabs > 0 && !draws_slabs;
-  Image image = draw_until_kept(frame, in_order ? in_order_plan(frame, plan) : plan).image;
+  DrawnPicture picture = draw_until_kept(frame, in_order ? in_order_plan(frame, plan) : plan);
+  stats.check.is_bound = plan.certify && picture.certificate.is_bound;
+  Image image = std::move(picture.image);
   share(image);
   particles.end_frame();
   stats.device_bytes = device.pool.peak_bytes() + particles.device_bytes();
@@ -366,6 +368,7 @@ void Renderer::State::share(Certificate& certificate) const {
   broadcast_value(*ranks, certificate.worst_kept);
   broadcast_value(*ranks, certificate.needs);
   broadcast_value(*ranks, certificate.needs_extended);
+  broadcast_value(*ranks, certificate.is_bound);
   broadcast_value(*ranks, certificate.blocks.columns);
   broadcast_value(*ranks, certificate.blocks.rows);
   broadcast_values(*ranks, certificate.blocks.errors);

@@ -87,7 +87,8 @@ class FrameBuffers {
     const std::uint64_t segments = layout_.tile_count + capacity / traits_.segment_length + 1;
     // Of a GPU: tiles and splats of all entries, from where and to where they are sorted.
     const std::uint64_t pairs = traits_.rows ? 0 : 4 * sizeof(std::uint32_t);
-    const std::uint64_t counts = traits_.rows ? blocks + 2 : 2 * COPIES_OF_COUNTS;
+    const std::uint64_t of_blocks = (layout_.has_parts() ? 2 : 1) * blocks;
+    const std::uint64_t counts = traits_.rows ? of_blocks + 2 : 2 * COPIES_OF_COUNTS;
     return counts * layout_.tile_count * sizeof(std::uint32_t) +
            segments * sizeof(shared::Segment) + entries() + capacity * pairs;
   }

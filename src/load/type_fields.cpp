@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "between/interpolation.h"
 #include "common/words.h"
 #include "load/derived_fields.h"
 #include "load/missing_sizes.h"
@@ -61,7 +62,10 @@ TypeFields::TypeFields(const Snapshot& snapshot, const ParticleTypeInfo& type, s
       sizes_(std::move(sizes)) {}
 
 Column TypeFields::positions() const {
-  return snapshot_->read(type_->type, "position");
+  Column position = snapshot_->read(type_->type, "position");
+  const auto between = interpolated(position);
+  if (between && !between->interpolation().note.empty()) say(between->interpolation().note);
+  return position;
 }
 
 std::vector<std::uint64_t> TypeFields::ids() const {

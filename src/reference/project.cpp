@@ -160,6 +160,7 @@ Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnC
   splat.y = place.y;
   splat.sigma = widened.sigma;
   if (frame.projection == Projection::equirectangular) {
+    splat.sigma = std::min(splat.sigma, widest_in_panorama(frame.camera));
     const PanoramaEllipse ellipse = panorama_ellipse(place, splat.sigma, frame.camera);
     splat.y = ellipse.y;
     splat.stretch = ellipse.stretch;
@@ -229,8 +230,8 @@ bool is_within_set_limits(const Depth& depth, const Frame& frame, const DepthKey
 }
 
 // The splat and its copies a period to the left and right, and between them those that are
-// mirrored over the nearer pole, as far as they reach the picture. At eight sigmas a cloud has
-// 1e-28 of its peak left.
+// mirrored over the poles, as far as they reach the picture. At eight sigmas a cloud has 1e-28 of
+// its peak left.
 void push_copies(Splat splat, const Frame& frame, std::vector<Splat>& splats) {
   if (splat.splat_part == 0) {  // rays alone find it, wherever they go
     splats.push_back(splat);
@@ -238,17 +239,22 @@ void push_copies(Splat splat, const Frame& frame, std::vector<Splat>& splats) {
   }
   const double half_period = 0.5 * period_along_x(frame.camera, frame.projection);
   const double reach = 8 * splat.sigma + 2, reach_x = 8 * splat.stretch * splat.sigma + 2;
-  const double x = splat.x, y = splat.y, mirrored = mirrored_over_pole(y, frame.camera);
+  const double x = splat.x;
+  const std::vector<double> straight = {splat.y};
+  std::vector<double> mirrored;
+  for (const double y : mirrored_over_poles(splat.y, frame.camera)) {
+    if (y + reach >= 0 && y - reach <= frame.height) mirrored.push_back(y);
+  }
   const double first = std::ceil((-reach_x - x) / half_period);
   const double last = std::floor((frame.width + reach_x - x) / half_period);
   const std::size_t before = splats.size();
   for (double copy = first; copy <= last; ++copy) {
-    const bool is_mirrored = std::fmod(copy, 2) != 0;
-    if (is_mirrored && (mirrored + reach < 0 || mirrored - reach > frame.height)) continue;
-    splat.x = x + copy * half_period;
-    splat.y = is_mirrored ? mirrored : y;
-    splats.push_back(splat);
-    splat.ray_part = 0;  // which is that of all copies
+    for (const double y : std::fmod(copy, 2) != 0 ? mirrored : straight) {
+      splat.x = x + copy * half_period;
+      splat.y = y;
+      splats.push_back(splat);
+      splat.ray_part = 0;  // which is that of all copies
+    }
   }
   if (splats.size() == before) splats.push_back(splat);
 }

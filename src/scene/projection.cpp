@@ -146,10 +146,14 @@ PanoramaEllipse panorama_ellipse(const Projected& place, double sigma, const Cam
   return ellipse;
 }
 
-double mirrored_over_pole(double y, const CameraFrame& camera) {
+std::array<double, 2> mirrored_over_poles(double y, const CameraFrame& camera) {
   const double to_pole = 0.5 * pi * camera.focal_pixels;
-  const double pole = camera.center_y + (y < camera.center_y ? -to_pole : to_pole);
-  return 2 * pole - y;
+  return {2 * (camera.center_y - to_pole) - y, 2 * (camera.center_y + to_pole) - y};
+}
+
+double widest_in_panorama(const CameraFrame& camera) {
+  constexpr double radians = 2;
+  return radians * camera.focal_pixels;
 }
 
 // Wider clouds are what rays find, as those around the camera are.

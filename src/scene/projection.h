@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "splotchcl/camera.h"
@@ -34,14 +35,19 @@ Vec3 direction_at(double x, double y, const CameraFrame& camera, Projection proj
 // point itself where there is no such eye.
 Vec3 seen_by_eye(const Vec3& from_camera, const CameraFrame& camera, Projection projection);
 
-// The ellipse as which an equirectangular picture shows a splat of this height. Another one, half
-// a period along, is its mirror image over the nearer pole (docs/projections.md).
+// The ellipse as which an equirectangular picture shows a splat of this height. Two others, half a
+// period along, are its mirror images over the poles (docs/projections.md).
 struct PanoramaEllipse {
   double y = 0;        // of its center, nearer to the pole than the cloud's place
   double stretch = 1;  // so many times as wide as high: the splat keeps its flux
 };
 PanoramaEllipse panorama_ellipse(const Projected& place, double sigma, const CameraFrame& camera);
-double mirrored_over_pole(double y, const CameraFrame& camera);
+// Over the upper and the lower pole.
+std::array<double, 2> mirrored_over_poles(double y, const CameraFrame& camera);
+
+// Clouds are drawn at most so wide, in pixels: farther around the sky there is nothing to tell
+// them apart by.
+double widest_in_panorama(const CameraFrame& camera);
 
 // A cloud on a face of a cube: what rays find of it, seen through a pixel's footprint, so that
 // faces agree at their edges (docs/projections.md). At a pixel dx, dy pixels from its center, which

@@ -86,6 +86,24 @@ void check_tangents(int type, SnapshotPair& pair) {
       name_of(info), name_of(pair.second->info()), type, *ratio));
 }
 
+// What lies so far beside the box that it has not just left it.
+std::string tell_of_outside(const FoundPeriod& found) {
+  if (found.outside == 0) return {};
+  const std::string what = fmt::format(
+      "{} of {} particles of both snapshots lie farther outside of the header's box of {:g} than a "
+      "hundredth of its side",
+      found.outside, found.particles, found.range.size);
+  if (found.is_of_particles()) {
+    return what + fmt::format(
+                      ": they are drawn at their images within it, from {:g} to {:g}; if they do "
+                      "not belong there, leave them out by select",
+                      found.range.lower, found.range.lower + found.range.size);
+  }
+  return what +
+         ": the box is not used, and what crosses its faces moves through all of it; put particles "
+         "into the box, or write its true side";
+}
+
 }  // namespace
 
 Column read_or_nothing(const SequenceMember& member, int type, const std::string& field) {
@@ -112,7 +130,9 @@ const TypePath& SnapshotPair::path(int type) const {
   // Paths have one period for all axes.
   const std::optional<BoxSides>& box = first->info().box_size;
   if (box && box->is_cube() && box == second->info().box_size) {
-    path.period = find_periodic_range(box->longest(), path.first, path.second);
+    const FoundPeriod found = find_period(box->longest(), path.first, path.second);
+    if (found.is_of_particles()) path.period = found.range;
+    path.note = tell_of_outside(found);
   }
   return paths_[type] = std::move(path);
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "parallel/for_blocks.h"
@@ -112,18 +113,23 @@ double shorter_way(double displacement, const std::optional<PeriodicRange>& peri
 // Up to so much of a side beyond it particles have left the box since they were last put into it.
 constexpr double just_left = 0.01;
 
-bool lies_within(const PathEnd& of, const PeriodicRange& range) {
+bool lies_within(const Point& point, const PeriodicRange& range) {
   const double lowest = range.lower - just_left * range.size;
   const double highest = range.lower + (1 + just_left) * range.size;
-  std::atomic<bool> all{true};
-  for_blocks(of.position.size(), 3 * block_size, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && all.load(std::memory_order_relaxed); ++i) {
-      if (!std::isfinite(of.position[i])) continue;
-      const double x = of.origin.a[i % 3] + static_cast<double>(of.position[i]);
-      if (x < lowest || x > highest) all = false;
-    }
+  // What is no number lies nowhere else.
+  return std::none_of(point.begin(), point.end(),
+                      [&](double x) { return std::isfinite(x) && (x < lowest || x > highest); });
+}
+
+std::uint64_t count_outside(const PathEnd& of, const PeriodicRange& range) {
+  std::atomic<std::uint64_t> outside{0};
+  for_blocks(of.position.size() / 3, block_size, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t of_block = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      of_block += !lies_within(position_of(of, i), range);
+    outside += of_block;
   });
-  return all;
+  return outside;
 }
 
 // Sums of squares of particles in both.
@@ -163,16 +169,24 @@ ColumnBetween interpolate_positions(const TypePath& path, std::shared_ptr<const 
   positions.first_velocity = path.first.velocity;
   positions.second_velocity = path.second.velocity;
   positions.path = make_path_numbers(setting, fraction);
+  positions.note = path.note;
   return positions;
 }
 
-std::optional<PeriodicRange> find_periodic_range(double box, const PathEnd& first,
-                                                 const PathEnd& second) {
+FoundPeriod find_period(double box, const PathEnd& first, const PathEnd& second) {
+  FoundPeriod found;
+  found.particles = (first.position.size() + second.position.size()) / 3;
+  found.outside = found.particles;
   for (const double lower : {0.0, -0.5 * box}) {
     const PeriodicRange range = {lower, box};
-    if (lies_within(first, range) && lies_within(second, range)) return range;
+    const std::uint64_t outside = count_outside(first, range) + count_outside(second, range);
+    if (lower == 0 || outside < found.outside) {
+      found.range = range;
+      found.outside = outside;
+    }
+    if (outside == 0) break;
   }
-  return std::nullopt;
+  return found;
 }
 
 // Blocks are added up in their order, so that the sum is the same on any number of cores.

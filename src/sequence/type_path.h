@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
 
 #include "between/interpolation.h"
 #include "splotchcl/sequence.h"
@@ -38,17 +40,25 @@ struct PathEnd {
 struct TypePath {
   PathEnd first, second;
   std::optional<PeriodicRange> period;
+  std::string note;  // what a user should know of it; mostly nothing
 };
 
 // Positions at a fraction of the way, relative to first.origin.
 ColumnBetween interpolate_positions(const TypePath& path, std::shared_ptr<const IdMatch> match,
                                     double fraction);
 
-// The period in which both columns lie, or beside which by a hundredth of it at most, from 0 or
-// around 0; none where they lie in neither: the header's box is then not that of the particles.
+// A period from 0 or around 0, whichever holds more of both snapshots' particles, and how many lie
+// farther beside it than a hundredth of its side.
+struct FoundPeriod {
+  PeriodicRange range;
+  std::uint64_t outside = 0, particles = 0;
+
+  // The header's box is that of the particles unless more than a hundredth of them lie elsewhere.
+  bool is_of_particles() const { return 100 * outside <= particles; }
+};
+
 // `box` as the header has it.
-std::optional<PeriodicRange> find_periodic_range(double box, const PathEnd& first,
-                                                 const PathEnd& second);
+FoundPeriod find_period(double box, const PathEnd& first, const PathEnd& second);
 
 // How well velocities fit displacements: the root mean square of the mean tangents over that
 // of the displacements, of particles in both. Nothing where none moves.

@@ -102,17 +102,26 @@ void set_splats(const Projected& place, double sigma, const Frame& frame, CloudA
     cloud.splats = {splat};
     return;
   }
+  sigma = std::min(sigma, widest_in_panorama(frame.camera));
   const PanoramaEllipse ellipse = panorama_ellipse(place, sigma, frame.camera);
-  splat.sigma_x *= ellipse.stretch;
-  const double mirrored = mirrored_over_pole(ellipse.y, frame.camera);
+  splat.sigma_y = sigma;
+  splat.sigma_x = sigma * ellipse.stretch;
+  const double reach = 8 * sigma + 2;
+  const std::vector<double> straight = {ellipse.y};
+  std::vector<double> mirrored;
+  for (const double y : mirrored_over_poles(ellipse.y, frame.camera)) {
+    if (y + reach >= 0 && y - reach <= frame.height) mirrored.push_back(y);
+  }
   const double half_period = 0.5 * period_along_x(frame.camera, frame.projection);
-  const double reach = 8 * sigma + 2, reach_x = 8 * splat.sigma_x + 2;
+  const double reach_x = 8 * splat.sigma_x + 2;
   const double first = std::ceil((-reach_x - place.x) / half_period);
   const double last = std::floor((frame.width + reach_x - place.x) / half_period);
   for (double copy = first; copy <= last; ++copy) {
     splat.x = place.x + copy * half_period;
-    splat.y = std::fmod(copy, 2) != 0 ? mirrored : ellipse.y;
-    if (splat.y + reach >= 0 && splat.y - reach <= frame.height) cloud.splats.push_back(splat);
+    for (const double y : std::fmod(copy, 2) != 0 ? mirrored : straight) {
+      splat.y = y;
+      cloud.splats.push_back(splat);
+    }
   }
 }
 

@@ -193,6 +193,31 @@ double part_of_knots(const std::vector<Rgb>& knots) {
   return of_brightest(frame, certified(frame));
 }
 
+TEST(Depths, AreLookedAtInOrderAndWhereColorsOfMatterAreRounded) {
+  Frame frame = star_among({{1, 0, 0}, {0, 0, 1}}, {Scaling::linear, 0, 1});
+  const auto needed = [&frame] { return needs_depths(frame, make_plan(frame)); };
+  EXPECT_FALSE(needed()) << "nothing absorbs";
+  frame.components.front().absorption.kind = Absorption::Kind::as_emission;
+  EXPECT_TRUE(needed());
+  frame.components.front().particles.color = {};
+  EXPECT_FALSE(needed()) << "all have one color";
+  frame.components.front().absorption = {Absorption::Kind::gray, 1};
+  EXPECT_TRUE(needed()) << "in order";
+}
+
+TEST(ColorErrors, HaveABoundUnlessAPaletteIsBlackElsewhereThanWhereItBegins) {
+  const auto has_bound = [](const std::vector<Rgb>& knots) {
+    const Frame frame = star_among(knots, {Scaling::linear, 0, 1});
+    return parts_of_colors(frame, certified(frame)).are_bounds;
+  };
+  const Rgb black = {0, 0, 0}, red = {1, 0, 0}, blue = {0, 0, 1};
+  EXPECT_TRUE(has_bound({red, blue}));
+  EXPECT_TRUE(has_bound({black, red, blue}));
+  EXPECT_TRUE(has_bound({black, black}));
+  EXPECT_FALSE(has_bound({red, black}));
+  EXPECT_FALSE(has_bound({red, black, blue}));
+}
+
 TEST(ColorErrors, DoNotFollowTheRange) {
   EXPECT_EQ(part_of_range(Scaling::linear, 0, 1), part_of_range(Scaling::linear, 1e6, 1e6 + 1));
   EXPECT_EQ(part_of_range(Scaling::log, 1, 6), part_of_range(Scaling::log, 5.995, 6));

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device/stages.h"
@@ -54,6 +55,38 @@ class Bin : public StageTest, public testing::WithParamInterface<Setup> {
     return with_identities(frame_of(setup.width, setup.height, {component}));
   }
 
+  // So many that some end within a rounding of a tile's edge.
+  static Frame many_clouds() {
+    CloudSetup setup;
+    setup.width = 160;
+    setup.height = 96;
+    setup.count = 20000;
+    setup.sigma_low = 0.3;
+    setup.sigma_high = 6;
+    setup.column_high = 0.1;
+    DrawnComponent component = random_clouds(setup);
+    component.absorption = absorption_for(GetParam().light);
+    return with_identities(frame_of(setup.width, setup.height, {component}));
+  }
+
+  // The numbers of a crop's tiles, and of the same tiles in the whole picture.
+  static std::vector<std::pair<std::size_t, std::size_t>> tiles_of_both(const Stages& crop,
+                                                                        const Stages& whole) {
+    std::vector<std::pair<std::size_t, std::size_t>> tiles;
+    const int width = static_cast<int>(crop.context().variant.tile_width);
+    const int height = static_cast<int>(crop.context().variant.tile_height);
+    for (std::size_t g = 0; g < crop.layout().grids.size(); ++g) {
+      const shared::Grid &part = crop.layout().grids[g], &all = whole.layout().grids[g];
+      for (int i = 0; i < part.tiles_x * part.tiles_y; ++i) {
+        const int column = part.first_x / width + i % part.tiles_x;
+        const int row = part.first_y / height + i / part.tiles_x;
+        tiles.emplace_back(part.first_tile + static_cast<std::uint32_t>(i),
+                           all.first_tile + static_cast<std::uint32_t>(row * all.tiles_x + column));
+      }
+    }
+    return tiles;
+  }
+
   // Where each particle stands in the order of the lists.
   static std::map<std::uint64_t, std::size_t> places(const Frame& frame) {
     std::vector<reference::Splat> splats = reference::project(frame);
@@ -64,6 +97,29 @@ class Bin : public StageTest, public testing::WithParamInterface<Setup> {
     return places;
   }
 };
+
+// Lists are cut by their length: a crop's would be cut elsewhere if what lies beside it came first.
+TEST_P(Bin, ListsOfACropBeginWithThoseOfThePicture) {
+  const Frame whole = many_clouds();
+  Stages in_picture(device(), whole, GetParam().rows);
+  const Lists of_picture = read_lists(in_picture, in_picture.bin());
+  for (const Rectangle& crop : {Rectangle{0, 0, 50, 40}, Rectangle{70, 40, 20, 9}}) {
+    Frame part = whole;
+    part.crop = crop;
+    Stages in_crop(device(), part, GetParam().rows);
+    const Lists of_crop = read_lists(in_crop, in_crop.bin());
+    std::size_t behind = 0;
+    for (const auto& [tile, in_whole] : tiles_of_both(in_crop, in_picture)) {
+      ASSERT_GE(of_crop.lengths[tile], of_picture.lengths[in_whole]);
+      behind += of_crop.lengths[tile] - of_picture.lengths[in_whole];
+      for (std::size_t i = 0; i < of_picture.lengths[in_whole]; ++i) {
+        ASSERT_EQ(of_crop.entries[of_crop.starts[tile] + i].particle,
+                  of_picture.entries[of_picture.starts[in_whole] + i].particle);
+      }
+    }
+    EXPECT_GT(behind, 10u) << "some must lie beside the crop";
+  }
+}
 
 TEST_P(Bin, CountsTheEntriesOfAllLists) {
   Stages stages(device(), clouds(), GetParam().rows);

@@ -88,6 +88,31 @@ TEST_P(CropBits, AreThoseOfThePictureAlsoWhereAStarBesideTheCropIsTooSharp) {
   EXPECT_TRUE(renderer(GetParam()).stats().drawn_most_exactly);
 }
 
+// Of so many splats the lists of tiles are cut, and a crop's tiles also list what lies beside them.
+TEST_P(CropBits, AreThoseOfThePictureWhereTilesHaveManyThousandSplats) {
+  DeviceContext device(choose_device(""));
+  CloudSetup setup;
+  setup.width = 160;
+  setup.height = 96;
+  setup.count = 150000;
+  setup.sigma_low = 0.3;
+  setup.sigma_high = 6;
+  setup.column_high = 0.1;
+  Frame frame = frame_of(setup.width, setup.height, {random_clouds(setup)});
+  for (const LightPlan plan : all_plans) {
+    frame.components.front().absorption = absorption_for(plan);
+    frame.crop = {0, 0, setup.width, setup.height};
+    const Image whole = draw_once(device, frame, GetParam());
+    ASSERT_GT(sum_of_light(whole), 100);
+    for (const Rectangle& crop : {Rectangle{0, 0, 50, 40}, Rectangle{64, 32, 32, 32},
+                                  Rectangle{37, 23, 101, 67}, Rectangle{100, 60, 60, 36}}) {
+      frame.crop = crop;
+      EXPECT_EQ(rows_that_differ(draw_once(device, frame, GetParam()), whole, crop), 0)
+          << name(plan) << ", crop at " << crop.x << ", " << crop.y;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shapes, CropBits,
                          testing::Values(CompositeShape::rows, CompositeShape::groups),
                          [](const testing::TestParamInfo<CompositeShape>& info) {

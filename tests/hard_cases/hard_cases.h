@@ -31,6 +31,7 @@ struct HardCase {
   bool dark = false;                   // nothing to see: a black picture is right
   Drawn in_groups = Drawn::always;     // the shape made for GPUs, slow on a processor
   Drawn most_exactly = Drawn::always;  // at tolerance 0
+  bool has_bound = true;               // what is certified of it
 };
 
 // Plans that cases are drawn by, where not all absorb.

@@ -74,6 +74,21 @@ TEST(Panorama, CloudsKeepTheirLightUpToThePole) {
   }
 }
 
+// Which pole is nearer to a cloud on the horizon a rounding would decide.
+TEST(Panorama, WideCloudOnTheHorizonShowsOverBothPolesAlike) {
+  for (const double latitude : {-1e-12, 0.0, 1e-12}) {
+    const ReferenceImage image = reference::render(panorama({at_place(0.3, latitude, 1.5)}));
+    for (int x = 0; x < 200; ++x)
+      EXPECT_NEAR(red_of(image, x, 0), red_of(image, x, 99), 1e-9) << latitude << " " << x;
+  }
+}
+
+TEST(Panorama, CloudsAreAtMostTwoRadiansWide) {
+  EXPECT_NEAR(only_splat(panorama({at_place(0.3, 0, 1.9)})).sigma, 1.9 * 100 / pi, 1e-4);
+  for (const double sigma : {2.0, 4.0, 9.0})
+    EXPECT_NEAR(only_splat(panorama({at_place(0.3, 0, sigma)})).sigma, 2 * 100 / pi, 1e-4);
+}
+
 TEST(Panorama, CloudOnTheSeamIsOnBothSides) {
   const ReferenceImage seam = reference::render(panorama({at_place(pi - 0.004, 0.2, 0.1)}));
   const ReferenceImage middle = reference::render(panorama({at_place(-0.004, 0.2, 0.1)}));

@@ -1,8 +1,13 @@
 // Particles between two snapshots against closed forms.
+#include "between/interpolation.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <vector>
 
 #include "sequence/moving_snapshot.h"
 #include "splotchcl/error.h"
@@ -11,6 +16,7 @@ namespace splotchcl {
 namespace {
 
 using namespace splotchcl::test;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::FloatEq;
 using ::testing::HasSubstr;
@@ -71,6 +77,29 @@ TEST(LinearPositions, AreNotWrappedWhereParticlesLieOutsideOfTheBox) {
   const auto first = MovingSnapshot(0).box(10).ids(0, {1}).positions(0, {-40, 0, 0}).make();
   const auto second = MovingSnapshot(1).box(10).ids(0, {1}).positions(0, {40, 0, 0}).make();
   EXPECT_THAT(values(between(first, second, 0.75), "position"), ElementsAre(20, 0, 0));
+}
+
+// As few as those of which a run has lost sight do not end the period of all others.
+TEST(LinearPositions, AreWrappedWhereFewParticlesLieFarOutsideOfTheBox) {
+  constexpr std::uint64_t count = 100;
+  std::vector<std::uint64_t> ids(count);
+  std::iota(ids.begin(), ids.end(), 1);
+  std::vector<float> before(3 * count, 98), after(3 * count, 2);
+  before[0] = before[1] = before[2] = 298;
+  const auto first = MovingSnapshot(0).box(100).ids(0, ids).positions(0, before).make();
+  const auto second = MovingSnapshot(1).box(100).ids(0, ids).positions(0, after).make();
+  const InterpolatedSnapshot middle = between(first, second, 0.75);
+  EXPECT_THAT(values(middle, "position"), Each(1));
+  EXPECT_THAT(interpolated(middle.read(0, "position"))->interpolation().note,
+              HasSubstr("1 of 200 particles of both snapshots lie farther outside of the header's "
+                        "box of 100 than a hundredth of its side: they are drawn at their images"));
+}
+
+TEST(LinearPositions, TellWhereTheBoxIsNotUsed) {
+  const auto first = MovingSnapshot(0).box(10).ids(0, {1}).positions(0, {-40, 0, 0}).make();
+  const auto second = MovingSnapshot(1).box(10).ids(0, {1}).positions(0, {40, 0, 0}).make();
+  EXPECT_THAT(interpolated(between(first, second, 0.5).read(0, "position"))->interpolation().note,
+              HasSubstr("the box is not used"));
 }
 
 TEST(LinearPositions, HoldForSnapshotsOfDifferentOrigins) {

@@ -179,6 +179,15 @@ PictureLayout make_picture_layout(const Frame& frame, const FramePlan& plan,
   return layout;
 }
 
+bool PictureLayout::has_parts() const {
+  return std::any_of(grids.begin(), grids.end(),
+                     [](const shared::Grid& grid) { return grid.is_part != 0; });
+}
+
+std::uint64_t counted_tiles(std::uint32_t blocks, const PictureLayout& layout) {
+  return std::uint64_t{layout.has_parts() ? 2u : 1u} * blocks * layout.tile_count;
+}
+
 std::vector<shared::Grid> all_grids(const PictureLayout& layout) {
   std::vector<shared::Grid> grids = layout.grids;
   grids.insert(grids.end(), layout.collecting.begin(), layout.collecting.end());

@@ -23,7 +23,12 @@ struct PictureLayout {
   std::vector<shared::Grid> collecting;
   std::uint32_t tile_count = 0;    // of all grids
   std::uint64_t plane_floats = 0;  // all planes of all grids
+
+  bool has_parts() const;  // of some grid's tiles not all are in memory
 };
+
+// How many counts of tiles so many blocks of splats have (kernels/bin/tiles.cl, CountedTiles).
+std::uint64_t counted_tiles(std::uint32_t blocks, const PictureLayout& layout);
 
 // Where the grid's planes begin, one after the other, in floats.
 inline std::size_t floats_before(const shared::Grid& grid) {

@@ -35,6 +35,7 @@ Binner::Binner(const StageContext& context)
   entry_capacity_ = entry_capacity(context.plan, traits);
   const PictureLayout& layout = context.layout;
   parameters_.tile_count = layout.tile_count;
+  parameters_.has_parts = layout.has_parts() ? 1 : 0;
   parameters_.grid_count = static_cast<std::uint32_t>(layout.grids.size());
   parameters_.segment_length = traits.segment_length;
   parameters_.segment_capacity =
@@ -105,7 +106,7 @@ void Binner::cut_in_blocks(CountedSplats& counted) const {
                                                          "splats in order");
   counted.tiles = context_.device.pool.get<std::uint32_t>(slots, "tiles of splats");
   counted.tile_counts = context_.device.pool.get<std::uint32_t>(
-      std::uint64_t{parameters.block_count} * parameters.tile_count, "tile counts");
+      counted_tiles(parameters.block_count, context_.layout), "tile counts");
 }
 
 void Binner::count_tiles(CountedSplats& counted) const {

@@ -135,8 +135,9 @@ void GroupBinner::make_lists(const CountedSplats& counted, const TileBand& band,
   lists.segments = device.pool.upload(
       cut_in_segments(counted.lengths, band, parameters.bin.segment_length), "segments");
   KeyedValues pairs = emit(counted, parameters);
-  pairs = sorter_.sort("bin", std::move(pairs), parameters.entry_count,
-                       digits_of_bits(bits_of(band.end - band.first - 1)));
+  pairs =
+      sorter_.sort("bin", std::move(pairs), parameters.entry_count,
+                   digits_of_bits(bits_of(band.end - band.first - 1) + parameters.bin.has_parts));
   lists.entries = device.pool.get<std::byte>(
       lists.entry_count * context_.variant.tile_splat_bytes(), "tile entries");
   Launch(device, "bin", program_.create_kernel("bin_make_entries"))

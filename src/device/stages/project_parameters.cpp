@@ -157,9 +157,7 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   p.middle_y = grid.middle_y;
   p.guard = plan.pyramid.grids.back().guard;
   p.tile_count = context.layout.tile_count;
-  const auto& grids = context.layout.grids;
-  p.has_parts = std::any_of(grids.begin(), grids.end(),
-                            [](const shared::Grid& each) { return each.is_part != 0; });
+  p.has_parts = context.layout.has_parts();
   p.center_x = static_cast<float>(frame.camera.center_x - grid.middle_x);
   p.center_y = static_cast<float>(frame.camera.center_y - grid.middle_y);
 

@@ -226,7 +226,7 @@ SplatBlocks Projector::project(const ParticleChunk& chunk, const ParticleBuffers
   const bool lists_tiles = has_rows() && !context_.variant.has_own_tiles();
   blocks.tiles = pool.get<std::uint32_t>(lists_tiles ? slots : 0, "tiles of splats");
   blocks.tile_counts = pool.get<std::uint32_t>(
-      has_rows() ? std::uint64_t{blocks.block_count} * parameters.tile_count : 0, "tile counts");
+      has_rows() ? counted_tiles(blocks.block_count, context_.layout) : 0, "tile counts");
   const std::vector<std::uint32_t> left_out = left_out_blocks(parameters, particles);
   blocks.left_out = count_left_out(left_out);
   launch(ProjectOutput::splats, parameters, particles, left_out,

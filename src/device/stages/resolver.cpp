@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "certificate/certificate.h"
 #include "device/opencl/launch.h"
 #include "device/stages/clear_memory.h"
 #include "device/stages/stage_programs.h"
@@ -95,7 +96,7 @@ Resolver::Resolver(const StageContext& context)
     if (context.plan.pyramid.is_blurred())
       blur_program_ = context.device.programs.get(blur_program(context.variant));
   }
-  if (context.plan.light != LightPlan::emission)
+  if (needs_depths(frame, context.plan))
     deepest_program_ = context.device.programs.get(deepest_program(context.variant));
   if (context.plan.slabs > 0)
     slab_program_ = context.device.programs.get(lay_slab_program(context.variant));

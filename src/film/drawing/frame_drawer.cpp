@@ -124,6 +124,14 @@ DrawnFrame all_or_none(const Frame& frame, const Draw& draw) {
   }
 }
 
+// Of what was asked to be certified.
+constexpr const char* no_bound_of_colors =
+    "no bound can be given for roundings of this frame's colors, and its errors are estimates: a "
+    "palette comes close to black elsewhere than at its first color, or a channel is opaque before "
+    "light of another; with a palette that does not, and an absorption alike in all channels, "
+    "there "
+    "is one";
+
 }  // namespace
 
 std::vector<std::string> DrawnFrame::all_notes() const {
@@ -241,6 +249,8 @@ struct FrameDrawer::State {
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
     drawn.bad_particles = tell_of_bad_particles(drawn.stats);
+    if (plan_options.certify && renderer.valid() && !drawn.stats.check.is_bound)
+      drawn.notes.emplace_back(no_bound_of_colors);
     return drawn;
   }
 

@@ -13,8 +13,9 @@
 namespace splotchcl {
 namespace {
 
-// Copies of a splat in an equirectangular picture, half a period apart (kernels/project).
-constexpr int splats_with_copies = 11;
+// Copies of a splat in an equirectangular picture, half a period apart and every other one twice:
+// it is mirrored over both poles (kernels/project/wide_angle.cl).
+constexpr int splats_with_copies = 19;
 
 // Narrow splats are those of dense places, where many lie close together, and drawing them
 // farther costs little: most of their cost does not depend on their area. With these, few frames

@@ -52,6 +52,26 @@ class FrameDrawing : public ::testing::Test {
   FrameDrawer drawer_{FrameDrawerOptions{"", true, {}}};
 };
 
+// What a color errs by is no part of its light where it comes close to black.
+TEST_F(FrameDrawing, SaysWhereNothingBoundsWhatColorsDo) {
+  std::vector<float> field = {0.2F, 0.7F};
+  arrays_.set_field(1, "warmth", field.data(), 2, 1);
+  arrays_.changed();
+  FrameDrawerOptions options{"", false, {}};
+  options.certify = true;
+  FrameDrawer certifies(options);
+  const auto notes_with = [&](const std::string& palette) {
+    return certifies
+        .draw(scene({"component.0.color.field=warmth", "component.0.color.min=0",
+                     "component.0.color.max=1", "component.0.palette=" + palette}),
+              arrays_)
+        .all_notes();
+  };
+  EXPECT_THAT(notes_with("gray"), IsEmpty());
+  EXPECT_THAT(notes_with("gray_r"),
+              ElementsAre(HasSubstr("no bound can be given for roundings of this frame's colors")));
+}
+
 TEST_F(FrameDrawing, GivesThePictureAndWhatItTook) {
   const DrawnFrame drawn = draw();
   ASSERT_EQ(drawn.pictures.size(), 1U);
