@@ -120,6 +120,7 @@ FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Comm
   film.memory_bytes = options.memory_bytes;
   film.frames = options.frames;
   film.part = options.part;
+  film.as_displayed = options.display;
   film.only_join = options.join;
   return film;
 }

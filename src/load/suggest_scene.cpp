@@ -7,6 +7,7 @@
 
 #include "common/utf8.h"
 #include "load/passes.h"
+#include "load/press_look.h"
 #include "load/suggest_camera.h"
 #include "scene/particle_columns.h"
 #include "scene/statistics.h"
@@ -304,10 +305,12 @@ std::vector<int> types_of(const std::vector<Component>& components) {
 
 }  // namespace
 
-Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types) {
+Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types, Look look) {
   const ParticleTypeInfo* const only =
       types.size() == 1 ? snapshot.info().find_type(types.front()) : nullptr;
-  return only != nullptr ? type_component(snapshot, *only, true) : joint_component(snapshot, types);
+  const Component component =
+      only != nullptr ? type_component(snapshot, *only, true) : joint_component(snapshot, types);
+  return look == Look::press ? in_press_look(component, snapshot) : component;
 }
 
 std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot) {
@@ -326,7 +329,7 @@ std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot) {
   return text;
 }
 
-Scene suggest_scene(const Snapshot& snapshot) {
+Scene suggest_scene(const Snapshot& snapshot, Look look) {
   const SnapshotInfo& info = snapshot.info();
   if (info.types.empty()) {
     throw DataError(info.files.front().string() +
@@ -338,6 +341,11 @@ Scene suggest_scene(const Snapshot& snapshot) {
   scene.image.gamma = gamma;
   show_all_light(scene.finish);
   scene.components = choose_components(snapshot);
+  if (look == Look::press) {
+    finish_for_press(scene.finish);
+    for (Component& component : scene.components)
+      component = in_press_look(component, snapshot);
+  }
   const Target target =
       suggest_target(snapshot, types_of(scene.components), scene.image.width, scene.image.height);
   scene.camera = suggest_camera(target);

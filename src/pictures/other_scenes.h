@@ -24,7 +24,8 @@ class OtherScenes {
 
   // The other scene's pictures. `other` is cross_fade_scene() of a frame.
   std::vector<Picture> draw(const std::string& file, Scene other, const Rectangle& crop,
-                            const DrawFrame& draw, std::vector<std::string>& notes);
+                            const DrawFrame& draw, PictureLight light,
+                            std::vector<std::string>& notes);
 
  private:
   struct OtherScene {
@@ -47,6 +48,6 @@ struct DrawnPictures {
 // draw_pictures() for the frames of a film.
 DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                             const DrawFrame& draw, std::vector<std::string>& notes,
-                            OtherScenes& other_scenes);
+                            OtherScenes& other_scenes, PictureLight light = PictureLight::shown);
 
 }  // namespace splotchcl

@@ -92,8 +92,25 @@ Keys tone_keys() {
   };
 }
 
+// Nothing where it is left out.
+Key white_balance_key() {
+  return key<FinishSettings, double>(
+      "finish.white_balance", number(between(1667, 25000)),
+      [](const FinishSettings& finish) { return finish.white_balance; },
+      [](FinishSettings& finish, double value) { finish.white_balance = value; },
+      {"The light of a black body so hot becomes white: below 6500 the picture turns bluer, above "
+       "redder.",
+       "K", "as drawn"});
+}
+
 Keys light_keys() {
   return {
+      finish_key("bloom", number(between(0, 1)), [](auto& f) -> auto& { return f.bloom; },
+                 {"The part of light that glows around where it falls, as in a lens; see "
+                  "finish.md."}),
+      white_balance_key(),
+      finish_key("highlights", number(between(0, 1)), [](auto& f) -> auto& { return f.highlights; },
+                 {"0: bright light keeps its hue. 1: it turns white as it nears white."}),
       finish_key("saturation", number(between(0, 100)),
                  [](auto& f) -> auto& { return f.saturation; }, {"0 is grey, 1 as drawn."}),
       finish_key("contrast", number(between(0, 100)), [](auto& f) -> auto& { return f.contrast; },

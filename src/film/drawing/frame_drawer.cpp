@@ -118,7 +118,8 @@ std::vector<std::string> DrawnFrame::all_notes() const {
 }
 
 struct FrameDrawer::State {
-  explicit State(const FrameDrawerOptions& options) : progress(options.progress) {
+  explicit State(const FrameDrawerOptions& options)
+      : progress(options.progress), light(options.light) {
     plan_options.certify = options.certify;
     if (options.by_reference) return;
     const auto open = [of_renderer = renderer_options(options)] {
@@ -192,7 +193,7 @@ struct FrameDrawer::State {
     drawn.notes = std::move(notes);
     DrawnPictures pictures = draw_pictures(
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn.stats); },
-        drawn.notes, other_scenes);
+        drawn.notes, other_scenes, light);
     drawn.pictures = std::move(pictures.pictures);
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
@@ -201,6 +202,7 @@ struct FrameDrawer::State {
   }
 
   std::function<void(const std::string&, double)> progress;
+  PictureLight light;
   PlanOptions plan_options;
   std::shared_future<std::shared_ptr<Renderer>> renderer;  // none: the reference draws
 };
@@ -243,7 +245,16 @@ ImageFileOptions image_file_options(const Scene& scene,
   options.dithers = scene.image.dither.value_or(!options.truncates);
   options.metadata = std::move(metadata);
   options.metadata["splotchcl:version"] = SPLOTCHCL_VERSION;
+  const FinishSettings& finish = scene.finish;
+  if (finish.exposure) options.metadata["splotchcl:exposure"] = fmt::format("{}", *finish.exposure);
+  if (finish.white) options.metadata["splotchcl:white"] = fmt::format("{}", *finish.white);
   return options;
+}
+
+PictureLight light_of_file(const std::filesystem::path& output) {
+  constexpr int whole_numbers = 16;
+  if (!holds_floats(output, std::nullopt)) return PictureLight::shown;
+  return holds_floats(output, whole_numbers) ? PictureLight::drawn : PictureLight::both;
 }
 
 void write_pictures(const std::filesystem::path& output, const std::vector<Picture>& pictures,
@@ -251,7 +262,11 @@ void write_pictures(const std::filesystem::path& output, const std::vector<Pictu
   for (const Picture& picture : pictures) {
     ImageFileOptions with_places = options;
     with_places.places = picture.places;
-    write_image(picture_path(output, picture.suffix), picture.image, with_places);
+    const bool is_as_drawn = !picture.light.pixels.empty() && holds_floats(output, options.bits);
+    with_places.metadata["splotchcl:light"] =
+        is_as_drawn ? "scene-linear, exposure not applied" : "linear, as displayed";
+    write_image(picture_path(output, picture.suffix), is_as_drawn ? picture.light : picture.image,
+                with_places);
   }
 }
 

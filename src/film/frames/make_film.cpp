@@ -184,6 +184,8 @@ class Film {
     of_drawer.columns_stay = true;
     of_drawer.memory_bytes = options_.memory_bytes;
     of_drawer.ranks = options_.ranks;
+    if (has_files() && !options_.as_displayed)
+      of_drawer.light = light_of_file(files_.picture(frames.front(), ""));
     FilmDrawer drawer(of_drawer, report_.note);
     drawer.tell(scene_.notes());
     decide_tone(drawer);
