@@ -78,7 +78,7 @@ struct FinishSettings {
   // Exposed light that becomes the display's white, > 0. Unset: found from the picture, as above.
   std::optional<double> white = 1;
   // From 0, bright light keeps its hue, to 1, it becomes white as it nears white. With T(N) as
-  // above, each channel goes this part of T(N)^2 of its way to T(N).
+  // above, each channel goes this part of T(N)^4 of its way to T(N).
   double highlights = 0;
   // In kelvin, 1667 to 25000: the light of a black body so hot becomes white. Unset: as drawn.
   std::optional<double> white_balance = std::nullopt;

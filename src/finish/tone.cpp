@@ -46,7 +46,7 @@ void apply_tone(Image& image, ToneCurve curve, double white, double highlights) 
     if (!(brightest > 0) || !std::isfinite(brightest)) continue;
     const double shown = tone(curve, brightest, white);
     const double factor = shown / brightest;
-    const double whiteness = highlights * std::min(1.0, shown) * std::min(1.0, shown);
+    const double whiteness = highlights * std::pow(std::min(1.0, shown), 4);
     for (int c = 0; c < 3; ++c) {
       const double in_hue = factor * pixel[c];
       pixel[c] = static_cast<float>(in_hue + whiteness * (shown - in_hue));

@@ -25,7 +25,7 @@ double tone(ToneCurve curve, double light, double white);
 // display's reach out of it. Alpha stays, and so does light that is not finite.
 //
 // `highlights` takes bright light towards white, where film and eyes end, and no single hue: a
-// channel L T / N becomes L T / N + h (T - L T / N) with h = highlights T^2, T at most 1. Like
+// channel L T / N becomes L T / N + h (T - L T / N) with h = highlights T^4, T at most 1. Like
 // Khronos' PBR Neutral (2024), which this follows, it mixes the compressed color with white as its
 // largest channel nears white, so that gray stays gray and no channel ever falls as light rises;
 // the weight is simpler, and begins in the dark.

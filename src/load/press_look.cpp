@@ -17,10 +17,10 @@ struct Decades {
   double minimum, maximum;
 };
 
-// From gas that has been ionised to that of clusters.
-constexpr Decades temperatures_of_universe = {1e4, 1e8};  // K
+// From gas that has cooled as space grew to that of clusters.
+constexpr Decades temperatures_of_universe = {1e3, 3e7};  // K
 // From the outskirts of a disc to the middle of a bulge.
-constexpr Decades densities_of_galaxy = {1e4, 3e8};  // solar masses per cubic kpc
+constexpr Decades densities_of_galaxy = {3e5, 3e8};  // solar masses per cubic kpc
 // From sheets to the cores of haloes.
 constexpr Decades overdensities = {0.3, 3e4};  // in the mean density of the type in its box
 
@@ -86,6 +86,18 @@ void color_disc(const SnapshotInfo& info, const ParticleTypeInfo& type, Componen
               component.color);
 }
 
+void draw_few_stars_as_points(const SnapshotInfo& info, Component& component) {
+  constexpr int stars = 4;
+  constexpr std::uint64_t few = 512;
+  constexpr double point = 0.02;  // of the distance to the 64th neighbour
+  constexpr double bright = 4;
+  if (component.types != std::vector<int>{stars}) return;
+  const ParticleTypeInfo& type = *info.find_type(stars);
+  if (type.count >= few || find_field(type, "smoothing_length") != nullptr) return;
+  component.size_factor = point;
+  component.brightness = bright;
+}
+
 }  // namespace
 
 Component in_press_look(Component component, const Snapshot& snapshot) {
@@ -103,17 +115,30 @@ Component in_press_look(Component component, const Snapshot& snapshot) {
     color_dark_matter(snapshot.info(), type, component);
   } else if (type.type == stars) {
     component.palette = "starlight";
+    draw_few_stars_as_points(snapshot.info(), component);
   } else {
     color_disc(snapshot.info(), type, component);
   }
   return component;
 }
 
+bool dark_matter_carries_picture(const SnapshotInfo& info) {
+  constexpr int halo = 1;
+  constexpr std::uint64_t many_times = 4;
+  const ParticleTypeInfo* const dark = info.find_type(halo);
+  if (dark == nullptr) return false;
+  std::uint64_t others = 0;
+  for (const ParticleTypeInfo& type : info.types)
+    others += type.type == halo ? 0 : type.count;
+  return others > 0 && dark->count > many_times * others;
+}
+
 void finish_for_press(FinishSettings& finish) {
   finish.bloom = 0.14;
-  finish.tone = ToneCurve::asinh;
-  finish.highlights = 0.9;
-  finish.saturation = 1.25;
+  finish.highlights = 1;
+  finish.saturation = 1.3;
+  finish.contrast = 1.15;
+  finish.contrast_pivot = 1;
 }
 
 }  // namespace splotchcl

@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "common/utf8.h"
+#include "load/paper_look.h"
 #include "load/passes.h"
 #include "load/press_look.h"
 #include "load/suggest_camera.h"
@@ -295,6 +296,21 @@ void show_all_light(FinishSettings& finish) {
   finish.white.reset();
 }
 
+// The rest is faint in it, and is not veiled.
+constexpr double faint = 0.25;
+
+void change_to_press(const Snapshot& snapshot, Scene& scene) {
+  const SnapshotInfo& info = snapshot.info();
+  const bool lacks_halo = info.find_type(gas) != nullptr;
+  if (lacks_halo && dark_matter_carries_picture(info)) {
+    scene.components.push_back(type_component(snapshot, *info.find_type(halo), false));
+    scene.components.back().brightness = faint;
+  }
+  for (Component& component : scene.components)
+    component = in_press_look(component, snapshot);
+  finish_for_press(scene.finish);
+}
+
 std::vector<int> types_of(const std::vector<Component>& components) {
   std::vector<int> types;
   for (const Component& component : components) {
@@ -310,7 +326,7 @@ Component suggest_component(const Snapshot& snapshot, const std::vector<int>& ty
       types.size() == 1 ? snapshot.info().find_type(types.front()) : nullptr;
   const Component component =
       only != nullptr ? type_component(snapshot, *only, true) : joint_component(snapshot, types);
-  return look == Look::press ? in_press_look(component, snapshot) : component;
+  return look == Look::classic ? component : in_press_look(component, snapshot);
 }
 
 std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot) {
@@ -341,14 +357,11 @@ Scene suggest_scene(const Snapshot& snapshot, Look look) {
   scene.image.gamma = gamma;
   show_all_light(scene.finish);
   scene.components = choose_components(snapshot);
-  if (look == Look::press) {
-    finish_for_press(scene.finish);
-    for (Component& component : scene.components)
-      component = in_press_look(component, snapshot);
-  }
   const Target target =
       suggest_target(snapshot, types_of(scene.components), scene.image.width, scene.image.height);
   scene.camera = suggest_camera(target);
+  if (look != Look::classic) change_to_press(snapshot, scene);
+  if (look == Look::paper) change_to_paper(scene);
   if (target.is_smooth) {
     for (Component& component : scene.components)
       show_contrast(snapshot, component);
