@@ -38,6 +38,21 @@ double tone(ToneCurve curve, double light, double white) {
   return curve == ToneCurve::linear ? shown : std::min(shown, 1.0);
 }
 
+// Of film() it lies in the toe: below it the curve bends up, above it down.
+double steepest_slope(ToneCurve curve, double white) {
+  constexpr double steepest_film_at = 0.1621, step = 1e-4;
+  const double at = std::min(steepest_film_at, white);
+  switch (curve) {
+    case ToneCurve::linear:
+      break;
+    case ToneCurve::asinh:
+      return asinh_slope / std::asinh(asinh_slope * white);
+    case ToneCurve::filmic:
+      return (film(at + step) - film(at)) / (step * film(white));
+  }
+  return 1 / white;
+}
+
 void apply_tone(Image& image, ToneCurve curve, double white, double highlights) {
   if (curve == ToneCurve::linear && white == 1 && highlights == 0) return;
   for (std::size_t i = 0; i < image.pixels.size(); i += 4) {

@@ -19,6 +19,9 @@ namespace splotchcl {
 //           A = 0.22, B = 0.30, C = 0.10, D = 0.20, E = 0.01, F = 0.30
 double tone(ToneCurve curve, double light, double white);
 
+// The most by which shown light rises for each unit that exposed light does, up to `white`.
+double steepest_slope(ToneCurve curve, double white);
+
 // The curve for each pixel: red, green and blue times tone(N) / N, N the largest of them. This is a
 // curve of luminance that starts, for each hue, at 0 and ends at the brightest that a display can
 // show in that hue; Rec. 709's luminance itself would push pure colors that are within the

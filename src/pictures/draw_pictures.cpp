@@ -52,10 +52,13 @@ class Views {
     }
   }
 
-  DrawnPictures draw(const DrawFrame& draw) const {
+  DrawnPictures draw(const DrawFrame& draw_alike, const KeepsPromise& keeps_promise) const {
     DrawnPictures drawn;
     drawn.finish = scene_.finish;
-    const std::vector<Image> images = draw_for_tone(draw, drawn);
+    std::vector<Image> images = draw_for_tone(draw_alike, drawn);
+    const double gain = is_shown_ ? display_gain(drawn.finish) : 1;
+    const DrawFrame draw = with_errors_counted(draw_alike, gain);
+    if (gain > 1 && keeps_promise && !images.empty() && !keeps_promise(gain)) images.clear();
     const std::vector<PictureSize> sizes =
         picture_sizes(scene_, frame_.crop.width, frame_.crop.height);
     for (const PictureSize& size : sizes)
@@ -149,7 +152,8 @@ void change_both(Picture& picture, const Change& change) {
 
 DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                             const DrawFrame& draw, std::vector<std::string>& notes,
-                            OtherScenes& other_scenes, PictureLight light) {
+                            OtherScenes& other_scenes, PictureLight light,
+                            const KeepsPromise& keeps_promise) {
   // An anaglyph is what a display shows through glasses, and nothing else.
   if (is_anaglyph(scene)) light = PictureLight::shown;
   const std::optional<Scene> other = cross_fade_scene(scene);
@@ -157,14 +161,14 @@ DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const Snapsh
   DrawnPictures drawn;
   drawn.finish = scene.finish;
   if (other && amount == 1) {
-    drawn.pictures = other_scenes.draw(file, *other, frame.crop, draw, light, notes);
+    drawn.pictures = other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes);
   } else {
-    drawn = Views(scene, frame, snapshot, light).draw(draw);
+    drawn = Views(scene, frame, snapshot, light).draw(draw, keeps_promise);
   }
   std::vector<Picture>& pictures = drawn.pictures;
   if (other && amount < 1) {
     const std::vector<Picture> others =
-        other_scenes.draw(file, *other, frame.crop, draw, light, notes);
+        other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       change_both(pictures[i], [&](auto part) { mix(pictures[i].*part, others[i].*part, amount); });
     }

@@ -27,6 +27,7 @@ Frame frame_of(const Scene& scene) {
   frame.width = width;
   frame.height = height;
   frame.crop = {0, 0, width, height};
+  frame.background = {1, 1, 1};
   frame.projection = scene.camera->projection;
   frame.camera = make_camera_frame(*scene.camera, width, height);
   return frame;
@@ -64,11 +65,12 @@ std::vector<std::string> suffixes(const std::vector<Picture>& pictures) {
   return all;
 }
 
-// Light that rises to the right, and doubles from drawing to drawing.
+// Light that rises to the right, doubles from drawing to drawing, and is as many times brighter as
+// the background.
 DrawFrame rising_light() {
   return [number = 0](const Frame& frame) mutable {
     Image image(frame.crop.width, frame.crop.height);
-    const auto factor = static_cast<float>(1 << number++);
+    const auto factor = static_cast<float>(frame.background[0] * (1 << number++));
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x)
         std::fill_n(image.at(x, y), 3, factor * static_cast<float>(1 + frame.crop.x + x));

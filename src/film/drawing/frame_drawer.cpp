@@ -154,6 +154,20 @@ struct FrameDrawer::State {
     return image;
   }
 
+  // What is found of errors counts in units of what is shown as white (units_of_white.h). A map of
+  // them needs drawings that count them so from the start.
+  bool keeps_promise(double gain, FrameCheck& check) const {
+    if (!renderer.valid()) return true;  // the reference has none
+    const std::vector<double>& errors = check.errors_of_promise;
+    const bool is_kept = !plan_options.certify && !errors.empty() && gain * errors.back() <= 1;
+    if (is_kept) {
+      check.errors_of_promise.back() *= gain;
+    } else {
+      check = {};
+    }
+    return is_kept;
+  }
+
   bool is_open() const {
     return renderer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }
@@ -193,7 +207,8 @@ struct FrameDrawer::State {
     drawn.notes = std::move(notes);
     DrawnPictures pictures = draw_pictures(
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn.stats); },
-        drawn.notes, other_scenes, light);
+        drawn.notes, other_scenes, light,
+        [&](double gain) { return keeps_promise(gain, drawn.stats.check); });
     drawn.pictures = std::move(pictures.pictures);
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
