@@ -56,7 +56,7 @@ class Views {
     DrawnPictures drawn;
     drawn.finish = scene_.finish;
     std::vector<Image> images = draw_for_tone(draw_alike, drawn);
-    const double gain = is_shown_ ? display_gain(drawn.finish) : 1;
+    const double gain = is_shown_ ? display_gain(drawn.finish, scene_.image.gamma) : 1;
     const DrawFrame draw = with_errors_counted(draw_alike, gain);
     if (gain > 1 && keeps_promise && !images.empty() && !keeps_promise(gain)) images.clear();
     const std::vector<PictureSize> sizes =

@@ -63,14 +63,27 @@ Frame brighter(Frame frame, double factor) {
   return frame;
 }
 
+// Of a channel whose error has another sign than the luminance's.
+double slope_of_saturation(const FinishSettings& finish) {
+  return std::max(1.0, 2 * finish.saturation - 1);
+}
+
+// At white, where it is steepest.
+double slope_of_contrast(const FinishSettings& finish, double gamma) {
+  const double pivot = std::pow(finish.contrast_pivot, gamma);
+  return std::max(1.0, finish.contrast * std::pow(1 / pivot, finish.contrast - 1));
+}
+
 }  // namespace
 
-double display_gain(const FinishSettings& finish) {
+double display_gain(const FinishSettings& finish, double gamma) {
   // What changes a pixel's brightest channel changes the others with it, a little more than a
   // curve that bends would by itself.
   const double bent = finish.tone == ToneCurve::linear ? 1 : 1.1;
   const double slope = bent * steepest_slope(finish.tone, finish.white.value());
-  return std::clamp(std::exp2(*finish.exposure) * slope, 1.0, largest_gain);
+  const double of_light = std::exp2(*finish.exposure) * slope * slope_of_saturation(finish) *
+                          slope_of_contrast(finish, gamma);
+  return std::clamp(of_light, 1.0, largest_gain);
 }
 
 DrawFrame with_errors_counted(const DrawFrame& draw, double gain) {

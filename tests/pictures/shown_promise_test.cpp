@@ -25,6 +25,8 @@ FinishSettings random_finish(Random& random) {
   constexpr ToneCurve curves[] = {ToneCurve::linear, ToneCurve::asinh, ToneCurve::filmic};
   finish.tone = curves[static_cast<int>(random.uniform(0, 3))];
   finish.white = random.logarithmic(0.3, 30);
+  finish.saturation = random.uniform(0, 2);
+  finish.contrast = random.uniform(1, 1.5);
   return finish;
 }
 
@@ -67,7 +69,7 @@ TEST_F(ShownPromise, HoldsAtRandomExposures) {
     const Frame frame = frame_of_wide_clouds(seed);
     const FinishSettings finish = random_finish(random);
     const Image exact = reference::render(frame).to_float();
-    const Image counted = with_errors_counted(draw, display_gain(finish))(frame);
+    const Image counted = with_errors_counted(draw, display_gain(finish, 2.2))(frame);
     EXPECT_LE(error_of_promise(counted, exact, frame, finish), 1)
         << "seed " << seed << ", exposure " << *finish.exposure << ", white " << *finish.white;
     broken_where_light_counts += error_of_promise(draw(frame), exact, frame, finish) > 1;
@@ -78,9 +80,9 @@ TEST_F(ShownPromise, HoldsAtRandomExposures) {
 TEST(DisplayGain, IsThatOfExposure) {
   FinishSettings finish;
   finish.exposure = 7;
-  EXPECT_EQ(display_gain(finish), 128);
+  EXPECT_EQ(display_gain(finish, 2.2), 128);
   finish.white = 4;
-  EXPECT_EQ(display_gain(finish), 32);
+  EXPECT_EQ(display_gain(finish, 2.2), 32);
 }
 
 TEST(DisplayGain, TakesInWhereACurveIsSteepest) {
@@ -100,7 +102,7 @@ TEST(DisplayGain, TakesInWhereACurveIsSteepest) {
 TEST(DisplayGain, LoosensNoPromise) {
   FinishSettings finish;
   finish.exposure = -5;
-  EXPECT_EQ(display_gain(finish), 1);
+  EXPECT_EQ(display_gain(finish, 2.2), 1);
 }
 
 // A picture that leaves its exposure open, and how bright the backgrounds were that it was drawn
