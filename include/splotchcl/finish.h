@@ -74,6 +74,7 @@ struct FinishSettings {
   double bloom = 0;
   // In stops: light is multiplied by 2^exposure. Unset: found from the picture, for a film once.
   std::optional<double> exposure = 0;
+  bool exposure_follows = false;  // where it is unset, it changes slowly along a film
   ToneCurve tone = ToneCurve::linear;
   // Exposed light that becomes the display's white, > 0. Unset: found from the picture, as above.
   std::optional<double> white = 1;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <random>
 
 #include "paths.h"
@@ -403,6 +404,23 @@ TEST_P(SuggestedPicture, ShowsAQuarterOfItselfOrAsMuchAsMatterFills) {
   const std::vector<float> light = drawn(as_drawn, *snapshot_);
   const double filled = part_from(1e-3 * static_cast<double>(light.back()), light);
   EXPECT_GE(part_from(0.02, drawn(scene_, *snapshot_)), std::min(0.25, filled));
+}
+
+// Of the light in it, how much is not gray: 0 to 1.
+TEST_P(SuggestedPicture, HasColors) {
+  const auto saturation = [](const float* pixel) {
+    const float most = brightest_channel(pixel);
+    return most > 0.02F ? (most - darkest_channel(pixel)) / most : -1;
+  };
+  const std::vector<float> values = drawn(scene_, *snapshot_, saturation);
+  const auto first = std::lower_bound(values.begin(), values.end(), 0.0F);
+  ASSERT_NE(first, values.end());
+  EXPECT_GT(std::accumulate(first, values.end(), 0.0F) / static_cast<float>(values.end() - first),
+            0.2F);
+}
+
+TEST_P(SuggestedPicture, FillsSomeOfItsFrame) {
+  EXPECT_GT(part_from(0.02, drawn(scene_, *snapshot_)), 0.04);
 }
 
 INSTANTIATE_TEST_SUITE_P(
