@@ -43,7 +43,8 @@ def suggest(
     size : (int, int) or str, optional
         Width and height in pixels, ``(640, 480)`` or ``"640x480"``; 1024 x 1024 otherwise.
     settings : mapping, optional
-        Scene keys that override what was chosen.
+        Scene keys that override what was chosen. ``look``, "press", "classic" or "paper", says
+        what it is to look like.
 
     Raises
     ------
