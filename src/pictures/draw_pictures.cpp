@@ -55,10 +55,11 @@ class Views {
   DrawnPictures draw(const DrawFrame& draw_alike, const KeepsPromise& keeps_promise) const {
     DrawnPictures drawn;
     drawn.finish = scene_.finish;
-    std::vector<Image> images = draw_for_tone(draw_alike, drawn);
+    std::vector<Image> images = draw_first(draw_alike);
+    find_tone(images, drawn);
     const double gain = is_shown_ ? display_gain(drawn.finish, scene_.image.gamma) : 1;
     const DrawFrame draw = with_errors_counted(draw_alike, gain);
-    if (gain > 1 && keeps_promise && !images.empty() && !keeps_promise(gain)) images.clear();
+    const bool draws_again = gain > 1 && !images.empty() && keeps_promise && !keeps_promise(gain);
     const std::vector<PictureSize> sizes =
         picture_sizes(scene_, frame_.crop.width, frame_.crop.height);
     for (const PictureSize& size : sizes)
@@ -72,9 +73,10 @@ class Views {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const bool is_over = is_anaglyph(scene_) && places_[i].eye == Eye::right;
       std::vector<Picture>& pictures = is_over ? of_right_eye : drawn.pictures;
-      Image image = images.empty() ? draw_view(places_[i], draw) : images[i];
-      if (keeps_light_) put(in_crop(image), places_[i], sizes, &Picture::light, pictures);
+      if (keeps_light_) put(in_crop(images[i]), places_[i], sizes, &Picture::light, pictures);
       if (!is_shown_) continue;
+      const bool is_drawn = !images.empty() && !draws_again;
+      Image image = is_drawn ? std::move(images[i]) : draw_view(places_[i], draw);
       add_bloom(image, scene_.finish.bloom);
       image = in_crop(std::move(image));
       finishes_[i].apply(image, drawn.finish, draw);
@@ -93,18 +95,22 @@ class Views {
     return has_open_tone(scene_.finish) || (is_shown_ && scene_.finish.bloom > 0);
   }
 
-  // All views, where they decide the tone together.
-  std::vector<Image> draw_for_tone(const DrawFrame& draw, DrawnPictures& drawn) const {
+  // All views, where they are kept as drawn or decide the tone together.
+  std::vector<Image> draw_first(const DrawFrame& draw) const {
     std::vector<Image> images;
-    if (!has_open_tone(scene_.finish)) return images;
-    LightHistogram light;
-    for (const ViewPlace& place : places_) {
+    if (!keeps_light_ && !has_open_tone(scene_.finish)) return images;
+    for (const ViewPlace& place : places_)
       images.push_back(draw_view(place, draw));
-      light.add(images.back());
-    }
+    return images;
+  }
+
+  void find_tone(const std::vector<Image>& images, DrawnPictures& drawn) const {
+    if (!has_open_tone(scene_.finish)) return;
+    LightHistogram light;
+    for (const Image& image : images)
+      light.add(image);
     drawn.finish = with_any_tone(scene_.finish, light);
     drawn.is_black = !with_tone_of(scene_.finish, light);
-    return images;
   }
 
   Image draw_view(const ViewPlace& place, const DrawFrame& draw) const {
