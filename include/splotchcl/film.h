@@ -26,7 +26,8 @@ struct FilmOptions {
   std::string part;    // K/N, the K-th of N runs of frames; empty: all
   // A file that the caller writes in the end, if any: refused where it is read, or is the film's.
   std::optional<std::filesystem::path> stats;
-  bool only_join = false;  // makes the film of frames that are drawn already
+  bool as_displayed = false;  // numbered files of floats hold what a display shows
+  bool only_join = false;     // makes the film of frames that are drawn already
   // As in FrameDrawerOptions: each frame is drawn by all ranks, which all call make_film. The first
   // of them has the files. It alone reports notes and progress; what stops it stops all.
   std::shared_ptr<Communicator> ranks = nullptr;

@@ -8,7 +8,8 @@
 #include "splotchcl/vector.h"
 
 // What is done to a picture after it has been drawn (docs/finish.md). In this order:
-// exposure, tone, saturation, contrast, inset, colour bars, scale bar, texts, cross-fade, fade.
+// bloom, exposure, white balance, tone, saturation, contrast, inset, colour bars, scale bar, texts,
+// cross-fade, fade.
 namespace splotchcl {
 
 // Red, green, blue from 0 to 1 as the display shows them, whatever image.gamma is.
@@ -69,11 +70,19 @@ struct CrossFade {
 
 // All of it. Each default leaves the picture as it has been drawn.
 struct FinishSettings {
+  // The part of light that a lens scatters around where it falls, from 0 to 1 (src/finish/bloom.h).
+  double bloom = 0;
   // In stops: light is multiplied by 2^exposure. Unset: found from the picture, for a film once.
   std::optional<double> exposure = 0;
+  bool exposure_follows = false;  // where it is unset, it changes slowly along a film
   ToneCurve tone = ToneCurve::linear;
   // Exposed light that becomes the display's white, > 0. Unset: found from the picture, as above.
   std::optional<double> white = 1;
+  // From 0, bright light keeps its hue, to 1, it becomes white as it nears white. With T(N) as
+  // above, each channel goes this part of T(N)^4 of its way to T(N).
+  double highlights = 0;
+  // In kelvin, 1667 to 25000: the light of a black body so hot becomes white. Unset: as drawn.
+  std::optional<double> white_balance = std::nullopt;
   double saturation = 1;        // >= 0; 0: gray, by the luminance of Rec. 709, 1: as drawn
   double contrast = 1;          // >= 0: display value v becomes pivot (v / pivot)^contrast
   double contrast_pivot = 0.5;  // a display value, > 0

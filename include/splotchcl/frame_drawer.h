@@ -45,11 +45,12 @@ struct FrameDrawerOptions {
   // draw(), not by the constructor. Not with ranks.
   bool opens_later = false;
   TreeUse tree = TreeUse::automatic;
+  PictureLight light = PictureLight::shown;  // which the pictures hold
 };
 
 // One frame of a scene, drawn, and what is to be told of it.
 struct DrawnFrame {
-  std::vector<Picture> pictures;  // finished, in linear light
+  std::vector<Picture> pictures;
   // The scene's, with the exposure and the white that the pictures decided where the scene leaves
   // them open. Nothing where no light was drawn that could decide.
   std::optional<FinishSettings> finish;
@@ -94,11 +95,15 @@ class FrameDrawer {
 
 // How the pictures of a scene are stored: with its gamma, bits and dither, and with 8 bits as the
 // original program makes them where it has the original's convention. The program's version is
-// added to the metadata.
+// added to the metadata, and the exposure and the white where the scene has them.
 ImageFileOptions image_file_options(const Scene& scene,
                                     std::map<std::string, std::string> metadata = {});
 
-// Each picture to its own file: picture_path(output, its suffix). Throws as write_image does.
+// What a file of this name keeps: floats hold light as it has been drawn. TIFF may hold either.
+PictureLight light_of_file(const std::filesystem::path& output);
+
+// Each picture to its own file: picture_path(output, its suffix). Files of floats take a picture's
+// light as drawn, if it has that, and their headers say which it is. Throws as write_image does.
 void write_pictures(const std::filesystem::path& output, const std::vector<Picture>& pictures,
                     const ImageFileOptions& options);
 

@@ -22,7 +22,9 @@ void check_image_size(const std::filesystem::path& path, int width, int height);
 struct ImageFileOptions {
   double gamma = 1;        // > 0; files of floats stay linear
   bool truncates = false;  // 8 bits are floor(256 v), at most 255, not round(255 v)
-  std::map<std::string, std::string> metadata = {};  // kept by EXR, dropped by other formats
+  // Kept by EXR; of what other formats hold, TIFF and HDR files of floats say what light it is
+  // (light_metadata).
+  std::map<std::string, std::string> metadata = {};
   // 8 or 16, which PNG and TIFF can hold. Unset: 8, and TIFF holds floats.
   std::optional<int> bits = std::nullopt;
   // 8 bits are floor(255 v + t) with t from blue noise between 0 and 1 instead of 1/2 (unless they
@@ -30,6 +32,13 @@ struct ImageFileOptions {
   bool dithers = false;
   PixelPlaces places = {};
 };
+
+// The names in the metadata of what light a file of floats holds.
+const std::vector<std::string>& light_metadata();
+
+// Whether a file of this name keeps linear floats, if so many bits are asked for. Throws UsageError
+// when the ending names no format that can be written.
+bool holds_floats(const std::filesystem::path& path, std::optional<int> bits);
 
 // Throws UsageError when a format of 8 bits alone shall hold more.
 void check_image_bits(const std::filesystem::path& path, std::optional<int> bits);

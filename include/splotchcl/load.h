@@ -17,9 +17,10 @@ namespace splotchcl {
 
 // A camera, components, fields and palettes that suit the data, every value spelled
 // out so that it can be saved as a scene file.
-Scene suggest_scene(const Snapshot& snapshot);
+Scene suggest_scene(const Snapshot& snapshot, Look look = Look::press);
 // A component that suits these types alone, where a user wants others than those suggested.
-Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types);
+Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types,
+                            Look look = Look::press);
 // The particles of the snapshot that no component draws, "not drawn: disk 20000, bulge 5000";
 // empty where all are drawn.
 std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot);

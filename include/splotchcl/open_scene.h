@@ -29,9 +29,10 @@ bool is_par_file(const std::filesystem::path& path);
 // that override it. Throws UsageError for a scene or a setting that is wrong, DataError for files
 // that cannot be read. Where all of `ranks` make the call, of the same files, they look at
 // particles together, each at its share: then, and whenever what the snapshot draws is decided or
-// loaded.
+// loaded. `look` is that of a snapshot for which the settings name none.
 SceneWithSnapshot open_scene(const std::filesystem::path& path,
                              const std::vector<std::string>& settings = {},
-                             const std::shared_ptr<Communicator>& ranks = nullptr);
+                             const std::shared_ptr<Communicator>& ranks = nullptr,
+                             Look look = Look::press);
 
 }  // namespace splotchcl

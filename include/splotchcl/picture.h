@@ -13,10 +13,17 @@ namespace splotchcl {
 struct SnapshotInfo;
 class Snapshot;
 
+// What is made of a scene's light.
+//   shown   what a display shows: with all that [finish] says
+//   drawn   scene-linear light, as it has been drawn, for other programs to finish: views are put
+//           together, fades and cross-fades mix it, and nothing else of [finish] is done
+enum class PictureLight { shown, drawn, both };
+
 // One picture that a scene asks for, ready to be written, in linear light.
 struct Picture {
-  std::string suffix;  // "" for the only one, else what tells its file from the others
-  Image image;
+  std::string suffix;       // "" for the only one, else what tells its file from the others
+  Image image;              // as shown; empty where that was not asked for
+  Image light = {};         // as drawn, likewise
   PixelPlaces places = {};  // in the views that it shows
 };
 

@@ -80,10 +80,19 @@ struct ImageSettings {
   std::optional<bool> dither = std::nullopt;
 };
 
+// What a scene is to look like that is chosen from the data (docs/looks.md).
+//   press    as large simulations are shown in public: hue for temperature or age, light for the
+//            column of matter, on a dark ground, with glow
+//   classic  one palette for each kind of matter, light and hue together
+//   paper    ink on white, to be printed
+enum class Look { press, classic, paper };
+
 // What a scene file says (docs/scene.md). Nothing in it depends on the data yet. Lengths and
 // fields are in the snapshot's units.
 struct Scene {
   std::string snapshot;  // empty with a sequence
+  // Of a scene without components, which are to be chosen from the data. Unset: none is chosen.
+  std::optional<Look> look;
   ReadSettings read;
   SequenceSettings time;  // a sequence of snapshots instead of one
   ImageSettings image;

@@ -83,6 +83,10 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
                  wrapped("Largest error of a pixel, in units of the display's white; 0: as exact "
                          "as possible. Default: the scene's, or 0.001"))
       ->type_name("X");
+  sub.add_option("--look", options.look,
+                 wrapped("What a snapshot's picture looks like: press, classic or paper. Default: "
+                         "press"))
+      ->type_name("NAME");
   sub.add_option("--every", options.every,
                  wrapped("Draw every N-th particle, brighter by as much as is left out: a quick "
                          "look at much data"))
@@ -106,6 +110,10 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_flag("--explain", options.explain,
                wrapped("Print the plan, the memory and time it needs, and the complete scene file; "
                        "draw nothing unless --output is given"));
+  sub.add_flag(
+      "--display", options.display,
+      wrapped("Files of floats (.exr, .tif, .hdr) hold what a display shows, with exposure "
+              "and tone. Default: scene-linear light as drawn"));
   sub.add_option("--memory", options.memory_bytes,
                  wrapped("Device memory to use, such as 1500MB or 2GiB; what does not fit is drawn "
                          "in several passes. Default: what is available"))

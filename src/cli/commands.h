@@ -22,12 +22,14 @@ struct DrawOptions {
   std::string device;
   std::vector<std::string> settings;  // key=value
   std::optional<std::string> size;    // WIDTHxHEIGHT
+  std::optional<std::string> look;
   std::optional<double> tolerance;
   std::optional<int> every, max_particles;
   bool cache_smoothing_lengths = false;
   bool reference = false;
   TreeUse tree = TreeUse::automatic;
   bool explain = false;
+  bool display = false;            // files of floats hold what a display shows
   std::uint64_t memory_bytes = 0;  // 0: as much as the device has room for
   std::optional<std::filesystem::path> stats;
 };

@@ -21,6 +21,7 @@ namespace splotchcl::cli {
 std::vector<std::string> settings_of(const DrawOptions& options) {
   std::vector<std::string> settings = options.settings;
   if (options.size) settings.push_back("image.size=" + *options.size);
+  if (options.look) settings.push_back("look=" + *options.look);
   if (options.tolerance) settings.push_back(fmt::format("tolerance={}", *options.tolerance));
   if (options.every) settings.push_back(fmt::format("read.every={}", *options.every));
   if (options.max_particles) {

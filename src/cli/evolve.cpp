@@ -226,14 +226,17 @@ class Evolution {
     for (const PictureSize& size : picture_sizes(scene_->scene(), image.width, image.height))
       check_image_size(pictures_->at(0), size.width, size.height);
     check_image_bits(pictures_->at(0), image.bits);
-    drawer_.emplace(FrameDrawerOptions{options_.device, false, {}},
-                    [this](const std::string& note) { console_.note(note); });
+    FrameDrawerOptions of_drawer{options_.device, false, {}};
+    of_drawer.light = light_of_file(pictures_->at(0));
+    drawer_.emplace(of_drawer, [this](const std::string& note) { console_.note(note); });
     scene_->decide();
     drawer_->tell(scene_->notes());
-    if (!drawer_->lacks_tone(scene_->scene(), scene_->other_scenes())) return;
-    console_.status("finding the exposure");
-    drawer_->decide_tone(scene_->scene(), *scene_->snapshot_at(galaxy.at(0)),
-                         scene_->other_scenes());
+    for (const int frame : frames_that_decide(options_.frames)) {
+      if (!FilmDrawer::asks_for_tone(scene_->scene(), scene_->other_scenes())) return;
+      console_.status("finding the film's exposure");
+      drawer_->decide_tone(frame, scene_->scene(), *scene_->snapshot_at(galaxy.at(time_of(frame))),
+                           scene_->other_scenes());
+    }
   }
 
   const EvolveOptions& options_;

@@ -324,7 +324,8 @@ void write_outputs(const Map& map, const SceneWithSnapshot& source,
 int run_map(const MapOptions& options, Console& console) {
   for (const std::filesystem::path& output : options.outputs)
     check_map_path(output);
-  SceneWithSnapshot source = open_scene(options.scene, settings_of_map(options));
+  SceneWithSnapshot source =
+      open_scene(options.scene, settings_of_map(options), nullptr, Look::classic);
   // A map is of one component, whatever else there is.
   const std::string not_drawn = tell_not_drawn(source.scene, *source.snapshot);
   add_selection(options.select, source.scene);

@@ -121,6 +121,7 @@ FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Comm
   film.tree = options.tree;
   film.frames = options.frames;
   film.part = options.part;
+  film.as_displayed = options.display;
   film.only_join = options.join;
   return film;
 }

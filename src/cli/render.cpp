@@ -177,6 +177,8 @@ FrameDrawerOptions drawer_options(const RenderOptions& options,
   of_drawer.tree = options.tree;
   of_drawer.opens_later = !ranks;
   of_drawer.start_compiler = compiler_processes(ranks);
+  const std::optional<std::filesystem::path> output = choose_output(options);
+  if (output && !options.display) of_drawer.light = light_of_file(*output);
   return of_drawer;
 }
 
@@ -191,7 +193,7 @@ void write_all(const RenderOptions& options, const std::filesystem::path& output
   Scene drawn_scene = source.scene;
   if (drawn.finish) drawn_scene.finish = *drawn.finish;
   write_pictures(output, drawn.pictures,
-                 image_file_options(source.scene, metadata(drawn_scene, options, drawn.stats)));
+                 image_file_options(drawn_scene, metadata(drawn_scene, options, drawn.stats)));
   if (map) write_image(*options.error_map, *map, image_file_options(source.scene, {}));
   report.write_seconds = writing.seconds();
   if (!options.stats) return;
@@ -269,11 +271,12 @@ int run_render(const RenderOptions& options, Console& console) {
   agree(ranks.get(), [&] {
     if (writes) write_all(options, *output, source, drawn, report, console);
   });
+  const Picture& picture = drawn.pictures.front();
+  const Image& image = picture.image.pixels.empty() ? picture.light : picture.image;
   console.done(fmt::format(
       "{}: {}x{} pixels, {} particles, read {:.2f} s, drawn {:.2f} s on {}{}{}", output->string(),
-      drawn.pictures.front().image.width, drawn.pictures.front().image.height,
-      report.stats.particles, report.read_seconds, report.draw_seconds, report.stats.device,
-      by_processes(report.stats), compilation(report.stats)));
+      image.width, image.height, report.stats.particles, report.read_seconds, report.draw_seconds,
+      report.stats.device, by_processes(report.stats), compilation(report.stats)));
   return 0;
 }
 

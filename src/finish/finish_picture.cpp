@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "finish/bars.h"
+#include "finish/bloom.h"
 #include "finish/joined_pictures.h"
 #include "finish/placeholders.h"
 #include "finish/tone.h"
@@ -117,6 +118,7 @@ void PictureFinish::apply(Image& image, const FinishSettings& light, const DrawF
   Canvas canvas(image, crop_);
   if (inset_) {
     Image picture = draw(inset_->frame);
+    add_bloom(picture, light.bloom);
     adjust_light(picture, light, gamma_);
     put(canvas, *inset_, picture);
   }

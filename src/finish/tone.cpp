@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "finish/white_balance.h"
+
 namespace splotchcl {
 namespace {
 
@@ -36,15 +38,34 @@ double tone(ToneCurve curve, double light, double white) {
   return curve == ToneCurve::linear ? shown : std::min(shown, 1.0);
 }
 
-void apply_tone(Image& image, ToneCurve curve, double white) {
-  if (curve == ToneCurve::linear && white == 1) return;
+// Of film() it lies in the toe: below it the curve bends up, above it down.
+double steepest_slope(ToneCurve curve, double white) {
+  constexpr double steepest_film_at = 0.1621, step = 1e-4;
+  const double at = std::min(steepest_film_at, white);
+  switch (curve) {
+    case ToneCurve::linear:
+      break;
+    case ToneCurve::asinh:
+      return asinh_slope / std::asinh(asinh_slope * white);
+    case ToneCurve::filmic:
+      return (film(at + step) - film(at)) / (step * film(white));
+  }
+  return 1 / white;
+}
+
+void apply_tone(Image& image, ToneCurve curve, double white, double highlights) {
+  if (curve == ToneCurve::linear && white == 1 && highlights == 0) return;
   for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
     float* const pixel = &image.pixels[i];
     const double brightest = std::max({pixel[0], pixel[1], pixel[2]});
     if (!(brightest > 0) || !std::isfinite(brightest)) continue;
-    const double factor = tone(curve, brightest, white) / brightest;
-    for (int c = 0; c < 3; ++c)
-      pixel[c] = static_cast<float>(factor * pixel[c]);
+    const double shown = tone(curve, brightest, white);
+    const double factor = shown / brightest;
+    const double whiteness = highlights * std::pow(std::min(1.0, shown), 4);
+    for (int c = 0; c < 3; ++c) {
+      const double in_hue = factor * pixel[c];
+      pixel[c] = static_cast<float>(in_hue + whiteness * (shown - in_hue));
+    }
   }
 }
 
@@ -249,7 +270,8 @@ void change_contrast(Image& image, double contrast, double pivot) {
 
 void adjust_light(Image& image, const FinishSettings& finish, double gamma) {
   expose(image, finish.exposure.value());
-  apply_tone(image, finish.tone, finish.white.value());
+  if (finish.white_balance) balance_white(image, *finish.white_balance);
+  apply_tone(image, finish.tone, finish.white.value(), finish.highlights);
   saturate(image, finish.saturation);
   change_contrast(image, finish.contrast, std::pow(finish.contrast_pivot, gamma));
 }

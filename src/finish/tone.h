@@ -19,11 +19,20 @@ namespace splotchcl {
 //           A = 0.22, B = 0.30, C = 0.10, D = 0.20, E = 0.01, F = 0.30
 double tone(ToneCurve curve, double light, double white);
 
+// The most by which shown light rises for each unit that exposed light does, up to `white`.
+double steepest_slope(ToneCurve curve, double white);
+
 // The curve for each pixel: red, green and blue times tone(N) / N, N the largest of them. This is a
 // curve of luminance that starts, for each hue, at 0 and ends at the brightest that a display can
 // show in that hue; Rec. 709's luminance itself would push pure colors that are within the
 // display's reach out of it. Alpha stays, and so does light that is not finite.
-void apply_tone(Image& image, ToneCurve curve, double white);
+//
+// `highlights` takes bright light towards white, where film and eyes end, and no single hue: a
+// channel L T / N becomes L T / N + h (T - L T / N) with h = highlights T^4, T at most 1. Like
+// Khronos' PBR Neutral (2024), which this follows, it mixes the compressed color with white as its
+// largest channel nears white, so that gray stays gray and no channel ever falls as light rises;
+// the weight is simpler, and begins in the dark.
+void apply_tone(Image& image, ToneCurve curve, double white, double highlights = 0);
 
 // How many pixels have how much light in their brightest channel. Bins are a 256th of an octave
 // wide at most, so that what follows does not hang on a picture's last digits.
@@ -65,9 +74,10 @@ std::optional<FinishSettings> with_tone_of(const FinishSettings& finish,
 // As above; exposure 0 and white 1 where the picture is black.
 FinishSettings with_any_tone(const FinishSettings& finish, const LightHistogram& light);
 
-// Exposure, then tone, saturation and contrast, of linear light; alpha stays. Nothing happens to
-// pixels for settings that change nothing. Exposure and white are known (above).
+// Exposure, then white balance, tone, saturation and contrast, of linear light; alpha stays.
+// Nothing happens to pixels for settings that change nothing. Exposure and white are known (above).
 //   exposure     L' = L 2^exposure
+//   balance      as white_balance.h has it
 //   tone         as tone() has it
 //   saturation   L' = max(0, Y + saturation (L - Y)), Y = 0.2126 R + 0.7152 G + 0.0722 B
 //   contrast     L' = p (L / p)^contrast with p = contrast_pivot^gamma, which is

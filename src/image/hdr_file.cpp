@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <sstream>
 #include <string>
 
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -55,15 +56,27 @@ std::vector<float> colors_of(const std::filesystem::path& path, const Image& ima
   return colors;
 }
 
+// Below the line that says what the file is.
+void add_comments(const std::string& lines, std::vector<unsigned char>& file) {
+  std::string comments;
+  std::istringstream text(lines);
+  for (std::string line; std::getline(text, line);)
+    comments += "# " + line + "\n";
+  const auto first_line = std::find(file.begin(), file.end(), '\n') + 1;
+  file.insert(first_line, comments.begin(), comments.end());
+}
+
 }  // namespace
 
-std::vector<unsigned char> encode_hdr(const std::filesystem::path& path, const Image& image) {
+std::vector<unsigned char> encode_hdr(const std::filesystem::path& path, const Image& image,
+                                      const std::string& description) {
   const std::vector<float> colors = colors_of(path, image);
   std::vector<unsigned char> file;
   if (stbi_write_hdr_to_func(append, &file, image.width, image.height, 3, colors.data()) == 0) {
     throw DataError(path.string() + ": " + std::to_string(image.width) + "x" +
                     std::to_string(image.height) + " pixels cannot be stored as .hdr");
   }
+  add_comments(description, file);
   return file;
 }
 

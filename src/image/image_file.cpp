@@ -25,14 +25,24 @@ using Metadata = std::map<std::string, std::string>;
 using EncodeLight = std::vector<unsigned char>(const std::filesystem::path& path,
                                                const Image& image, const Metadata& metadata);
 
+// A line for each.
+std::string tell_light(const Metadata& metadata) {
+  std::string text;
+  for (const std::string& name : light_metadata()) {
+    const auto found = metadata.find(name);
+    if (found != metadata.end()) text += name + ": " + found->second + "\n";
+  }
+  return text;
+}
+
 std::vector<unsigned char> encode_light_as_tiff(const std::filesystem::path& path,
-                                                const Image& image, const Metadata&) {
-  return encode_tiff(path, image);
+                                                const Image& image, const Metadata& metadata) {
+  return encode_tiff(path, image, tell_light(metadata));
 }
 
 std::vector<unsigned char> encode_light_as_hdr(const std::filesystem::path& path,
-                                               const Image& image, const Metadata&) {
-  return encode_hdr(path, image);
+                                               const Image& image, const Metadata& metadata) {
+  return encode_hdr(path, image, tell_light(metadata));
 }
 
 constexpr int any_side = std::numeric_limits<int>::max();
@@ -83,10 +93,7 @@ const Format& format_of(const std::filesystem::path& path) {
 std::vector<unsigned char> encode(const std::filesystem::path& path, const Image& image,
                                   const ImageFileOptions& options) {
   const Format& format = format_of(path);
-  const bool is_whole = format.holds_words && options.bits;
-  if (format.encode_light != nullptr && !is_whole) {
-    return format.encode_light(path, image, options.metadata);
-  }
+  if (holds_floats(path, options.bits)) return format.encode_light(path, image, options.metadata);
   if (options.bits == 16) {
     const std::vector<std::uint16_t> words = display_words(path, image, options);
     return format.encode_light != nullptr ? encode_tiff(path, image.width, image.height, words)
@@ -126,6 +133,17 @@ void check_image_size(const std::filesystem::path& path, int width, int height) 
   throw UsageError(path.string() + ": " + std::to_string(width) + "x" + std::to_string(height) +
                    " pixels do not fit into ." + format.ending + ", which holds up to " +
                    std::to_string(format.longest_side) + " a side; choose .png or .exr");
+}
+
+const std::vector<std::string>& light_metadata() {
+  static const std::vector<std::string> names = {"splotchcl:light", "splotchcl:exposure",
+                                                 "splotchcl:white"};
+  return names;
+}
+
+bool holds_floats(const std::filesystem::path& path, std::optional<int> bits) {
+  const Format& format = format_of(path);
+  return format.encode_light != nullptr && !(format.holds_words && bits);
 }
 
 void check_image_bits(const std::filesystem::path& path, std::optional<int> bits) {

@@ -19,7 +19,8 @@ std::vector<unsigned char> encode_exr(const std::filesystem::path& path, const I
 
 // 32-bit floats with premultiplied alpha, said to be linear; deflated without a predictor: many
 // readers do not know the predictor for floats.
-std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, const Image& image);
+std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, const Image& image,
+                                       const std::string& description);
 
 // Display values of 8 or 16 bits in red, green and blue, rows from the top, said to be sRGB.
 std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, int width, int height,
@@ -27,9 +28,10 @@ std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, int wi
 std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, int width, int height,
                                        const std::vector<std::uint16_t>& rgb);
 
-// Three mantissas of 8 bits with one exponent per pixel. Refuses light that is below 0 or not
-// finite, which the format cannot hold.
-std::vector<unsigned char> encode_hdr(const std::filesystem::path& path, const Image& image);
+// Three mantissas of 8 bits with one exponent per pixel, and lines that describe them. Refuses
+// light that is below 0 or not finite, which the format cannot hold.
+std::vector<unsigned char> encode_hdr(const std::filesystem::path& path, const Image& image,
+                                      const std::string& description);
 
 // What the numbers of a file stand for, with Rec. 709's primaries and the white of D65: display
 // values as IEC 61966-2-1 has them, or linear light.

@@ -222,6 +222,7 @@ struct Samples {
   int channels = 3;  // four: premultiplied alpha is the last
   int bits = 8;      // 32: floats of linear light
   const unsigned char* bytes = nullptr;
+  std::string description = {};  // may be empty
 
   std::size_t row_bytes() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels * bits / 8);
@@ -253,6 +254,8 @@ void describe(TIFF* tiff, const Samples& samples) {
       color_profile(samples.is_linear() ? ColorSpace::linear : ColorSpace::srgb);
   TIFFSetField(tiff, TIFFTAG_ICCPROFILE, static_cast<std::uint32_t>(profile.size()),
                profile.data());
+  if (!samples.description.empty())
+    TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, samples.description.c_str());
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
@@ -298,8 +301,9 @@ const unsigned char* bytes_of(const std::vector<Value>& values) {
 
 }  // namespace
 
-std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, const Image& image) {
-  return encode(path, {image.width, image.height, 4, 32, bytes_of(image.pixels)});
+std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, const Image& image,
+                                       const std::string& description) {
+  return encode(path, {image.width, image.height, 4, 32, bytes_of(image.pixels), description});
 }
 
 std::vector<unsigned char> encode_tiff(const std::filesystem::path& path, int width, int height,

@@ -6,7 +6,9 @@
 #include <initializer_list>
 
 #include "common/utf8.h"
+#include "load/paper_look.h"
 #include "load/passes.h"
+#include "load/press_look.h"
 #include "load/suggest_camera.h"
 #include "scene/particle_columns.h"
 #include "scene/statistics.h"
@@ -294,6 +296,21 @@ void show_all_light(FinishSettings& finish) {
   finish.white.reset();
 }
 
+// The rest is faint in it, and is not veiled.
+constexpr double faint = 0.25;
+
+void change_to_press(const Snapshot& snapshot, Scene& scene) {
+  const SnapshotInfo& info = snapshot.info();
+  const bool lacks_halo = info.find_type(gas) != nullptr;
+  if (lacks_halo && dark_matter_carries_picture(info)) {
+    scene.components.push_back(type_component(snapshot, *info.find_type(halo), false));
+    scene.components.back().brightness = faint;
+  }
+  for (Component& component : scene.components)
+    component = in_press_look(component, snapshot);
+  finish_for_press(scene.finish);
+}
+
 std::vector<int> types_of(const std::vector<Component>& components) {
   std::vector<int> types;
   for (const Component& component : components) {
@@ -304,10 +321,12 @@ std::vector<int> types_of(const std::vector<Component>& components) {
 
 }  // namespace
 
-Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types) {
+Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types, Look look) {
   const ParticleTypeInfo* const only =
       types.size() == 1 ? snapshot.info().find_type(types.front()) : nullptr;
-  return only != nullptr ? type_component(snapshot, *only, true) : joint_component(snapshot, types);
+  const Component component =
+      only != nullptr ? type_component(snapshot, *only, true) : joint_component(snapshot, types);
+  return look == Look::classic ? component : in_press_look(component, snapshot);
 }
 
 std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot) {
@@ -326,7 +345,7 @@ std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot) {
   return text;
 }
 
-Scene suggest_scene(const Snapshot& snapshot) {
+Scene suggest_scene(const Snapshot& snapshot, Look look) {
   const SnapshotInfo& info = snapshot.info();
   if (info.types.empty()) {
     throw DataError(info.files.front().string() +
@@ -341,6 +360,8 @@ Scene suggest_scene(const Snapshot& snapshot) {
   const Target target =
       suggest_target(snapshot, types_of(scene.components), scene.image.width, scene.image.height);
   scene.camera = suggest_camera(target);
+  if (look != Look::classic) change_to_press(snapshot, scene);
+  if (look == Look::paper) change_to_paper(scene);
   if (target.is_smooth) {
     for (Component& component : scene.components)
       show_contrast(snapshot, component);

@@ -30,9 +30,20 @@ ReadSettings read_settings_in(const std::vector<std::string>& settings) {
   return apply_settings(Scene(), own).read;
 }
 
+std::string key_of(const std::string& setting) {
+  return trimmed(setting.substr(0, setting.find('=')));
+}
+
+Look look_in(const std::vector<std::string>& settings, Look otherwise) {
+  std::vector<std::string> own;
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
+               [](const std::string& setting) { return key_of(setting) == "look"; });
+  return apply_settings(Scene(), own).look.value_or(otherwise);
+}
+
 // component.NAME.types=...
 bool sets_types(const std::string& setting) {
-  const std::string key = trimmed(setting.substr(0, setting.find('=')));
+  const std::string key = key_of(setting);
   const std::string ending = ".types";
   return key.rfind("component.", 0) == 0 && key.size() > ending.size() &&
          key.compare(key.size() - ending.size(), ending.size(), ending) == 0;
@@ -63,7 +74,7 @@ void check_wanted_types(const std::vector<int>& types, std::size_t component,
 // What was suggested for other types than a setting wants does not fit them: it is suggested anew,
 // and so is the camera.
 Scene with_wanted_types(Scene suggested, const std::vector<std::string>& settings,
-                        const Snapshot& snapshot) {
+                        const Snapshot& snapshot, Look look) {
   std::vector<std::string> own;
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(own), sets_types);
   if (own.empty()) return suggested;
@@ -78,7 +89,7 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
     if (types == suggested.components[i].types) continue;
     check_wanted_types(types, i, snapshot);
     const std::string name = suggested.components[i].name;
-    suggested.components[i] = suggest_component(snapshot, types);
+    suggested.components[i] = suggest_component(snapshot, types, look);
     suggested.components[i].name = name;
   }
   suggested.camera.reset();
@@ -133,27 +144,62 @@ void check_components(const Scene& scene, const std::filesystem::path& path) {
   throw UsageError(
       path.string() +
       ": found no component, expected at least one; add a [[component]] with its types, "
-      "such as types = \"gas\"");
+      "such as types = \"gas\", or look = \"press\" to have them chosen");
+}
+
+// Beside components it would do nothing.
+void refuse_look(const Scene& scene, const std::filesystem::path& path) {
+  if (!scene.look) return;
+  throw UsageError(
+      path.string() +
+      ": key look: found it beside components, expected one of the two: a look chooses "
+      "components; delete the key, or every [[component]]");
+}
+
+// A scene file without components leaves them to its look.
+SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
+                                  const std::vector<std::string>& settings,
+                                  const std::shared_ptr<Communicator>& ranks) {
+  std::vector<std::string> early;  // what does not presuppose components
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(early),
+               [](const std::string& setting) { return setting.rfind("component.", 0) != 0; });
+  SceneWithSnapshot result;
+  const Scene own = read_scene_file(path);
+  if (!own.components.empty() || !own.look) {
+    result.scene = read_scene_file(path, settings);
+    check_components(result.scene, path);
+    refuse_look(result.scene, path);
+    result.snapshot = SnapshotSource().at(result.scene);
+    return result;
+  }
+  const Scene begun = read_scene_file(path, early);
+  result.snapshot = SnapshotSource().at(begun);
+  share_passes(*result.snapshot, ranks);
+  const Scene suggested = with_wanted_types(suggest_scene(*result.snapshot, *begun.look), settings,
+                                            *result.snapshot, *begun.look);
+  result.scene = scene_file::read_scene_file_on(suggested, path, settings);
+  result.scene.look.reset();
+  return result;
 }
 
 SceneWithSnapshot open_together(const std::filesystem::path& path,
                                 const std::vector<std::string>& settings,
-                                const std::shared_ptr<Communicator>& ranks) {
+                                const std::shared_ptr<Communicator>& ranks, Look otherwise) {
   SceneWithSnapshot result;
   if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
     result.snapshot = SnapshotSource().at(result.scene);
   } else if (lower_ending(path) == ".toml" || (is_text_without_format(path) && has_keys(path))) {
-    result.scene = read_scene_file(path, settings);
-    check_components(result.scene, path);
-    result.snapshot = SnapshotSource().at(result.scene);
+    result = open_scene_file(path, settings, ranks);
   } else {
     result.snapshot = open_given_snapshot(path, read_settings_in(settings));
     share_passes(*result.snapshot, ranks);
+    const Look look = look_in(settings, otherwise);
     result.suggested =
-        with_wanted_types(suggest_scene(*result.snapshot), settings, *result.snapshot);
+        with_wanted_types(suggest_scene(*result.snapshot, look), settings, *result.snapshot, look);
     result.scene =
         scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
+    result.scene.look.reset();
     const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
     if (!not_drawn.empty()) result.notes.push_back(not_drawn);
   }
@@ -169,9 +215,9 @@ bool is_par_file(const std::filesystem::path& path) {
 
 SceneWithSnapshot open_scene(const std::filesystem::path& path,
                              const std::vector<std::string>& settings,
-                             const std::shared_ptr<Communicator>& ranks) {
+                             const std::shared_ptr<Communicator>& ranks, Look look) {
   SceneWithSnapshot result;
-  agree(ranks.get(), [&] { result = open_together(path, settings, ranks); });
+  agree(ranks.get(), [&] { result = open_together(path, settings, ranks, look); });
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include <optional>
 #include <utility>
 
+#include "finish/bloom.h"
 #include "finish/finish_picture.h"
 #include "finish/joined_pictures.h"
 #include "finish/tone.h"
@@ -30,12 +31,20 @@ Image cut_out(const Image& whole, const Rectangle& part) {
   return image;
 }
 
+bool is_anaglyph(const Scene& scene) {
+  return scene.stereo && is_anaglyph(scene.stereo->layout);
+}
+
 // All views of a scene on the way to its pictures: drawn one after the other, and finished once
 // all of them have shown how much light there is, where that is asked for.
 class Views {
  public:
-  Views(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot)
-      : scene_(scene), frame_(frame), places_(view_places(scene)) {
+  Views(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot, PictureLight light)
+      : scene_(scene),
+        frame_(frame),
+        is_shown_(light != PictureLight::drawn),
+        keeps_light_(light != PictureLight::shown),
+        places_(view_places(scene)) {
     for (const ViewPlace& place : places_) {
       ViewPlace between_eyes = place;
       between_eyes.eye.reset();
@@ -43,33 +52,35 @@ class Views {
     }
   }
 
-  DrawnPictures draw(const DrawFrame& draw) const {
+  DrawnPictures draw(const DrawFrame& draw_alike, const KeepsPromise& keeps_promise) const {
     DrawnPictures drawn;
     drawn.finish = scene_.finish;
-    std::vector<Image> images;
-    if (has_open_tone(scene_.finish)) {
-      LightHistogram light;
-      for (const ViewPlace& place : places_)
-        images.push_back(draw_with_light(place, draw, light));
-      drawn.finish = with_any_tone(scene_.finish, light);
-      drawn.is_black = !with_tone_of(scene_.finish, light);
-    }
+    std::vector<Image> images = draw_first(draw_alike);
+    find_tone(images, drawn);
+    const double gain = is_shown_ ? display_gain(drawn.finish, scene_.image.gamma) : 1;
+    const DrawFrame draw = with_errors_counted(draw_alike, gain);
+    const bool draws_again = gain > 1 && !images.empty() && keeps_promise && !keeps_promise(gain);
     const std::vector<PictureSize> sizes =
         picture_sizes(scene_, frame_.crop.width, frame_.crop.height);
     for (const PictureSize& size : sizes)
       drawn.pictures.push_back(
           {size.suffix,
            Image(),
+           Image(),
            {frame_.crop.x, frame_.crop.y, frame_.crop.width, frame_.crop.height}});
-    const bool overlaps = scene_.stereo && is_anaglyph(scene_.stereo->layout);
     std::vector<Picture> of_right_eye;
-    if (overlaps) of_right_eye = drawn.pictures;
+    if (is_anaglyph(scene_)) of_right_eye = drawn.pictures;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      Image image =
-          images.empty() ? draw(frame_of_view(scene_, frame_, places_[i])) : std::move(images[i]);
+      const bool is_over = is_anaglyph(scene_) && places_[i].eye == Eye::right;
+      std::vector<Picture>& pictures = is_over ? of_right_eye : drawn.pictures;
+      if (keeps_light_) put(in_crop(images[i]), places_[i], sizes, &Picture::light, pictures);
+      if (!is_shown_) continue;
+      const bool is_drawn = !images.empty() && !draws_again;
+      Image image = is_drawn ? std::move(images[i]) : draw_view(places_[i], draw);
+      add_bloom(image, scene_.finish.bloom);
+      image = in_crop(std::move(image));
       finishes_[i].apply(image, drawn.finish, draw);
-      const bool is_over = overlaps && places_[i].eye == Eye::right;
-      put(std::move(image), places_[i], sizes, is_over ? of_right_eye : drawn.pictures);
+      put(std::move(image), places_[i], sizes, &Picture::image, pictures);
     }
     for (std::size_t i = 0; i < of_right_eye.size(); ++i) {
       Image& left = drawn.pictures[i].image;
@@ -79,24 +90,47 @@ class Views {
   }
 
  private:
-  // A crop has the whole picture's exposure.
-  Image draw_with_light(const ViewPlace& place, const DrawFrame& draw,
-                        LightHistogram& light) const {
+  // Exposure and bloom come from all of the picture, also where only a part of it is drawn.
+  bool needs_whole() const {
+    return has_open_tone(scene_.finish) || (is_shown_ && scene_.finish.bloom > 0);
+  }
+
+  // All views, where they are kept as drawn or decide the tone together.
+  std::vector<Image> draw_first(const DrawFrame& draw) const {
+    std::vector<Image> images;
+    if (!keeps_light_ && !has_open_tone(scene_.finish)) return images;
+    for (const ViewPlace& place : places_)
+      images.push_back(draw_view(place, draw));
+    return images;
+  }
+
+  void find_tone(const std::vector<Image>& images, DrawnPictures& drawn) const {
+    if (!has_open_tone(scene_.finish)) return;
+    LightHistogram light;
+    for (const Image& image : images)
+      light.add(image);
+    drawn.finish = with_any_tone(scene_.finish, light);
+    drawn.is_black = !with_tone_of(scene_.finish, light);
+  }
+
+  Image draw_view(const ViewPlace& place, const DrawFrame& draw) const {
     Frame view = frame_of_view(scene_, frame_, place);
-    view.crop = {0, 0, view.width, view.height};
-    Image image = draw(view);
-    light.add(image);
-    const bool is_whole = frame_.crop.width == view.width && frame_.crop.height == view.height;
-    return is_whole ? image : cut_out(image, frame_.crop);
+    if (needs_whole()) view.crop = {0, 0, view.width, view.height};
+    return draw(view);
+  }
+
+  Image in_crop(Image image) const {
+    const bool is_cut = image.width == frame_.crop.width && image.height == frame_.crop.height;
+    return is_cut ? std::move(image) : cut_out(image, frame_.crop);
   }
 
   // A view that is all of its picture becomes it.
   static void put(Image image, const ViewPlace& place, const std::vector<PictureSize>& sizes,
-                  std::vector<Picture>& pictures) {
+                  Image Picture::*part, std::vector<Picture>& pictures) {
     std::size_t i = 0;
     while (pictures[i].suffix != place.suffix)
       ++i;
-    Image& picture = pictures[i].image;
+    Image& picture = pictures[i].*part;
     if (image.width == sizes[i].width && image.height == sizes[i].height) {
       picture = std::move(image);
       return;
@@ -107,32 +141,48 @@ class Views {
 
   const Scene& scene_;
   const Frame& frame_;
+  bool is_shown_, keeps_light_;
   std::vector<ViewPlace> places_;
   std::vector<PictureFinish> finishes_;
 };
+
+// Of those that the pictures hold.
+template <class Change>
+void change_both(Picture& picture, const Change& change) {
+  for (Image Picture::*part : {&Picture::image, &Picture::light}) {
+    if (!(picture.*part).pixels.empty()) change(part);
+  }
+}
 
 }  // namespace
 
 DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                             const DrawFrame& draw, std::vector<std::string>& notes,
-                            OtherScenes& other_scenes) {
+                            OtherScenes& other_scenes, PictureLight light,
+                            const KeepsPromise& keeps_promise) {
+  // An anaglyph is what a display shows through glasses, and nothing else.
+  if (is_anaglyph(scene)) light = PictureLight::shown;
   const std::optional<Scene> other = cross_fade_scene(scene);
   const auto& [file, amount] = scene.finish.cross_fade;
   DrawnPictures drawn;
   drawn.finish = scene.finish;
   if (other && amount == 1) {
-    drawn.pictures = other_scenes.draw(file, *other, frame.crop, draw, notes);
+    drawn.pictures = other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes);
   } else {
-    drawn = Views(scene, frame, snapshot).draw(draw);
+    drawn = Views(scene, frame, snapshot, light).draw(draw, keeps_promise);
   }
   std::vector<Picture>& pictures = drawn.pictures;
   if (other && amount < 1) {
-    const std::vector<Picture> others = other_scenes.draw(file, *other, frame.crop, draw, notes);
-    for (std::size_t i = 0; i < pictures.size(); ++i)
-      mix(pictures[i].image, others[i].image, amount);
+    const std::vector<Picture> others =
+        other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes);
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+      change_both(pictures[i], [&](auto part) { mix(pictures[i].*part, others[i].*part, amount); });
+    }
   }
-  for (Picture& picture : pictures)
-    fade_to_color(picture.image, scene.finish, scene.image.gamma);
+  for (Picture& picture : pictures) {
+    change_both(picture,
+                [&](auto part) { fade_to_color(picture.*part, scene.finish, scene.image.gamma); });
+  }
   return drawn;
 }
 

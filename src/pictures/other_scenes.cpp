@@ -26,7 +26,9 @@ bool OtherScenes::lacks_tone(const Scene& scene) const {
 }
 
 std::vector<Picture> OtherScenes::draw(const std::string& file, Scene other, const Rectangle& crop,
-                                       const DrawFrame& draw, std::vector<std::string>& notes) {
+                                       const DrawFrame& draw, PictureLight light,
+                                       const KeepsPromise& keeps_promise,
+                                       std::vector<std::string>& notes) {
   OtherScene& known = by_file_[file];
   if (known.decided) other.components = known.decided->components;
   const bool is_open = has_open_tone(other.finish);
@@ -35,7 +37,8 @@ std::vector<Picture> OtherScenes::draw(const std::string& file, Scene other, con
   Frame frame = load_frame(other, *snapshot, notes);
   OtherScenes none;  // it fades to no third
   frame.crop = crop;
-  DrawnPictures drawn = draw_pictures(other, frame, snapshot->info(), draw, notes, none);
+  DrawnPictures drawn =
+      draw_pictures(other, frame, snapshot->info(), draw, notes, none, light, keeps_promise);
   if (is_open && !known.tone && !drawn.is_black) known.tone = drawn.finish;
   return std::move(drawn.pictures);
 }

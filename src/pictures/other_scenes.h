@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pictures/units_of_white.h"
 #include "sequence/film_snapshots.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene.h"
@@ -24,7 +25,8 @@ class OtherScenes {
 
   // The other scene's pictures. `other` is cross_fade_scene() of a frame.
   std::vector<Picture> draw(const std::string& file, Scene other, const Rectangle& crop,
-                            const DrawFrame& draw, std::vector<std::string>& notes);
+                            const DrawFrame& draw, PictureLight light,
+                            const KeepsPromise& keeps_promise, std::vector<std::string>& notes);
 
  private:
   struct OtherScene {
@@ -47,6 +49,7 @@ struct DrawnPictures {
 // draw_pictures() for the frames of a film.
 DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                             const DrawFrame& draw, std::vector<std::string>& notes,
-                            OtherScenes& other_scenes);
+                            OtherScenes& other_scenes, PictureLight light = PictureLight::shown,
+                            const KeepsPromise& keeps_promise = {});
 
 }  // namespace splotchcl

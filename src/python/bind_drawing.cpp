@@ -21,11 +21,13 @@ class Drawer {
  public:
   Drawer(const std::string& device, bool by_reference, bool certify)
       : drawer_(without_python([&] {
-          return FrameDrawer({device, by_reference,
-                              [this](const std::string& what, double fraction) {
-                                if (progress_ != nullptr) (*progress_)(what, fraction);
-                              },
-                              certify});
+          FrameDrawerOptions options{device, by_reference,
+                                     [this](const std::string& what, double fraction) {
+                                       if (progress_ != nullptr) (*progress_)(what, fraction);
+                                     },
+                                     certify};
+          options.light = PictureLight::both;
+          return FrameDrawer(options);
         })) {}
 
   DrawnFrame draw(const Scene& scene, const Source& source, const Progress& progress) {
@@ -94,7 +96,8 @@ py::tuple draw(Drawer& drawer, const Scene& scene, const Source& source, py::obj
   py::dict pictures;
   for (Picture& picture : drawn.pictures) {
     pictures[py::str(picture.suffix)] =
-        PictureObject{std::move(picture.image), file_options(shown, drawn.stats, picture.places)};
+        PictureObject{std::move(picture.image), file_options(shown, drawn.stats, picture.places),
+                      std::move(picture.light)};
   }
   const bool is_decided = !has_all_levels(scene.finish) && has_all_levels(shown.finish);
   return py::make_tuple(pictures, drawn.all_notes(), describe(drawn.stats),

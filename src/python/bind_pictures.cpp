@@ -9,6 +9,7 @@
 #include "python/bindings.h"
 #include "python/progress.h"
 #include "splotchcl/compare.h"
+#include "splotchcl/frame_drawer.h"
 #include "splotchcl/palette_file.h"
 
 namespace splotchcl::python {
@@ -16,10 +17,11 @@ namespace {
 
 py::buffer_info buffer_of_picture(const PictureObject& picture) {
   constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
-  const auto width = static_cast<py::ssize_t>(picture.image.width);
-  const auto height = static_cast<py::ssize_t>(picture.image.height);
+  const Image& linear = picture.linear();
+  const auto width = static_cast<py::ssize_t>(linear.width);
+  const auto height = static_cast<py::ssize_t>(linear.height);
   constexpr bool is_read_only = true;
-  return {const_cast<float*>(picture.image.pixels.data()),  // read-only all the same
+  return {const_cast<float*>(linear.pixels.data()),  // read-only all the same
           size,
           py::format_descriptor<float>::format(),
           3,
@@ -47,7 +49,7 @@ std::vector<std::uint8_t> png(const PictureObject& picture) {
 
 py::dict compare(const PictureObject& picture, const PictureObject& reference, double limit) {
   const ImageDifference difference =
-      without_python([&] { return compare_images(picture.image, reference.image, limit); });
+      without_python([&] { return compare_images(picture.linear(), reference.linear(), limit); });
   py::dict result;
   result["worst"] = difference.worst;
   result["worst_pixel"] = py::make_tuple(difference.worst_x, difference.worst_y);
@@ -59,6 +61,17 @@ py::dict compare(const PictureObject& picture, const PictureObject& reference, d
   result["pixels_beyond"] = difference.pixels_beyond;
   result["pixels_not_finite"] = difference.pixels_not_finite;
   return result;
+}
+
+// Like the program.
+void save(const PictureObject& picture, const std::filesystem::path& path, bool as_displayed) {
+  check_image_path(path);
+  if (as_displayed || picture.light.pixels.empty()) {
+    write_image(path, picture.image, picture.options);
+  } else {
+    const Picture both = {"", picture.image, picture.light, picture.options.places};
+    write_pictures(path, {both}, picture.options);
+  }
 }
 
 // 256 colors of a palette as a screen shows them.
@@ -88,13 +101,8 @@ void bind_pictures(py::module_& module) {
            })
       .def("png",
            [](const PictureObject& p) { return bytes_of(without_python([&] { return png(p); })); })
-      .def("save",
-           [](const PictureObject& p, const std::filesystem::path& path) {
-             without_python([&] {
-               check_image_path(path);
-               write_image(path, p.image, p.options);
-             });
-           })
+      .def("save", [](const PictureObject& p, const std::filesystem::path& path,
+                      bool display) { without_python([&] { save(p, path, display); }); })
       .def("compare", &compare);
   module.def("read_image", [](const std::filesystem::path& path) {
     return without_python([&] { return PictureObject{read_image(path), {}}; });

@@ -102,8 +102,9 @@ void bind_scenes(py::module_& module) {
   module.def("snapshot_of", [](const Scene& scene) {
     return without_python([&] { return std::make_shared<Source>(SnapshotSource().at(scene)); });
   });
-  module.def("suggest", [](const Source& source) {
-    return in_turn(source, [&] { return suggest_scene(source.snapshot()); });
+  module.def("suggest", [](const Source& source, const Settings& look) {
+    const Look wanted = apply_settings(Scene(), look).look.value_or(Look::press);
+    return in_turn(source, [&] { return suggest_scene(source.snapshot(), wanted); });
   });
   module.def("tell_not_drawn", [](const Scene& scene, const Source& source) {
     return in_turn(source, [&] { return tell_not_drawn(scene, source.snapshot()); });

@@ -21,8 +21,11 @@ void bind_galaxy(pybind11::module_& module);
 
 // A picture and how it is stored.
 struct PictureObject {
-  Image image;
+  Image image;  // as displays show it
   ImageFileOptions options;
+  Image light = {};  // as drawn; empty where that is the same
+
+  const Image& linear() const { return light.pixels.empty() ? image : light; }
 };
 
 // Adds Picture to the module.

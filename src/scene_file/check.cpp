@@ -80,6 +80,16 @@ void check_kernel(const KernelSettings& kernel, const Origins& origins) {
          "only one of the two: the first keeps light, the second adds to it");
 }
 
+// Whose edges meet others, across which no light would glow.
+void check_bloom(const Scene& scene, const Origins& origins) {
+  if (scene.finish.bloom == 0 || !scene.camera) return;
+  const Projection projection = scene.camera->projection;
+  if (projection != Projection::equirectangular && projection != Projection::cube) return;
+  refuse(origins.at("finish.bloom"), "finish.bloom",
+         write_number(scene.finish.bloom) + " in a panorama or cube, at whose seams it would show",
+         "0 there");
+}
+
 void check_sort(const SortOrder& sort, const Origins& origins) {
   if (sort.by == SortOrder::By::depth) return;
   if (sort.field.empty() || sort.field == "depth") {
@@ -251,6 +261,7 @@ void check_scene(const Scene& scene, const Origins& origins) {
   if (scene.stereo) check_two_eyes(scene, origins);
   check_scale_bar(scene, origins);
   check_kernel(scene.kernel, origins);
+  check_bloom(scene, origins);
   check_sort(scene.sort, origins);
   check_path(scene.path, origins);
   check_time(scene, origins);

@@ -71,12 +71,43 @@ ValueType<std::optional<double>> number_or_auto(const Range& range) {
           [](const Value& value) { return value ? write_number(*value) : "\"auto\""; }};
 }
 
+struct Exposure {
+  std::optional<double> stops;
+  bool follows = false;
+};
+
+// Unset: found from the picture, for a film once or all along it.
+ValueType<Exposure> exposure() {
+  const ValueType<std::optional<double>> plain = number_or_auto(between(-100, 100));
+  return {"\"follow\" or " + plain.expected,
+          [plain](const toml::node& node) -> std::optional<Exposure> {
+            if (node.value_exact<std::string>() == "follow") return Exposure{std::nullopt, true};
+            const auto value = plain.read(node);
+            return value ? std::optional(Exposure{*value, false}) : std::nullopt;
+          },
+          [plain](const Exposure& value) {
+            return value.follows && !value.stops ? "\"follow\"" : plain.write(value.stops);
+          }};
+}
+
+Key exposure_key() {
+  return key<FinishSettings, Exposure>(
+      "finish.exposure", exposure(),
+      [](const FinishSettings& finish) {
+        return std::optional(Exposure{finish.exposure, finish.exposure_follows});
+      },
+      [](FinishSettings& finish, const Exposure& value) {
+        finish.exposure = value.stops;
+        finish.exposure_follows = value.follows;
+      },
+      {"Light is multiplied by 2^exposure. `\"auto\"`: from the picture, of a film once; "
+       "`\"follow\"`: slowly along a film; see finish.md.",
+       "stops"});
+}
+
 Keys tone_keys() {
   return {
-      finish_key("exposure", number_or_auto(between(-100, 100)),
-                 [](auto& f) -> auto& { return f.exposure; },
-                 {"Light is multiplied by 2^exposure. `\"auto\"`: from the picture; see finish.md.",
-                  "stops"}),
+      exposure_key(),
       finish_key("tone",
                  choice<ToneCurve>({{"linear", ToneCurve::linear},
                                     {"asinh", ToneCurve::asinh},
@@ -92,8 +123,25 @@ Keys tone_keys() {
   };
 }
 
+// Nothing where it is left out.
+Key white_balance_key() {
+  return key<FinishSettings, double>(
+      "finish.white_balance", number(between(1667, 25000)),
+      [](const FinishSettings& finish) { return finish.white_balance; },
+      [](FinishSettings& finish, double value) { finish.white_balance = value; },
+      {"The light of a black body so hot becomes white: below 6500 the picture turns bluer, above "
+       "redder.",
+       "K", "as drawn"});
+}
+
 Keys light_keys() {
   return {
+      finish_key("bloom", number(between(0, 1)), [](auto& f) -> auto& { return f.bloom; },
+                 {"The part of light that glows around where it falls, as in a lens; see "
+                  "finish.md."}),
+      white_balance_key(),
+      finish_key("highlights", number(between(0, 1)), [](auto& f) -> auto& { return f.highlights; },
+                 {"0: bright light keeps its hue. 1: it turns white as it nears white."}),
       finish_key("saturation", number(between(0, 100)),
                  [](auto& f) -> auto& { return f.saturation; }, {"0 is grey, 1 as drawn."}),
       finish_key("contrast", number(between(0, 100)), [](auto& f) -> auto& { return f.contrast; },

@@ -72,7 +72,21 @@ void give_way(const ImageSettings& before, const ImageSettings& suggested, const
 
 }  // namespace
 
+namespace {
+
+// Panoramas and cubes have seams, at which a glow would end.
+void stop_glow(const Scene& before, const Scene& suggested, const IsGiven& is_given, Scene& scene) {
+  const bool is_suggested = before.finish.bloom == suggested.finish.bloom;
+  const Projection projection = scene.camera->projection;
+  const bool has_seams =
+      projection == Projection::equirectangular || projection == Projection::cube;
+  if (is_suggested && has_seams && !is_given("finish.bloom")) scene.finish.bloom = 0;
+}
+
+}  // namespace
+
 void give_way(const Scene& before, const Scene& suggested, const IsGiven& is_given, Scene& scene) {
+  if (scene.camera) stop_glow(before, suggested, is_given, scene);
   if (before.camera && suggested.camera) {
     give_way(*before.camera, *suggested.camera, is_given, *scene.camera);
     turn_sky(*before.camera, *suggested.camera, is_given, *scene.camera);

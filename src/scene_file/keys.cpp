@@ -63,6 +63,16 @@ Keys top_level_keys() {
           [](Scene& scene, const std::string& value) { scene.snapshot = value; },
           {"The snapshot to draw: a file, any file of a set, or the set's base name.", "",
            "required, unless there is `time.snapshots`"}),
+      key<Scene, Look>(
+          "look",
+          choice<Look>(
+              {{"press", Look::press}, {"classic", Look::classic}, {"paper", Look::paper}}),
+          [](const Scene& scene) { return scene.look; },
+          [](Scene& scene, const Look& value) { scene.look = value; },
+          {"Chooses camera, components and finish from the data, in a scene without components; "
+           "see "
+           "looks.md.",
+           "", "`\"press\"` for a snapshot"}),
       key("tolerance", number(between(0, 1)), &Scene::tolerance,
           {"How far a pixel may be from the reference: error <= tolerance * max(1, value). 0: as "
            "exact as possible; see accuracy.md.",

@@ -34,19 +34,30 @@ void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
   if (!scene.time.pattern.empty()) scene.time.pattern = in_folder(folder, scene.time.pattern);
 }
 
-}  // namespace
-
-Scene read_scene_file(const std::filesystem::path& path, const std::vector<std::string>& settings) {
-  SceneBuilder builder({}, path.string());
+Scene read_file(SceneBuilder builder, const std::filesystem::path& path,
+                const std::vector<std::string>& settings, const Scene* suggested) {
   builder.read_text(read_text_file(path));
   resolve_paths(builder.scene(), path.parent_path());
-  builder.apply_settings(settings);
-  const Scene scene = builder.finish();
+  builder.apply_settings(settings, suggested);
+  Scene scene = builder.finish();
   if (scene.snapshot.empty() && !scene.time.is_set()) {
     scene_file::refuse(path.string(), "snapshot", "nothing",
                        "the path of a snapshot, or time.snapshots");
   }
   return scene;
+}
+
+}  // namespace
+
+Scene read_scene_file(const std::filesystem::path& path, const std::vector<std::string>& settings) {
+  return read_file(SceneBuilder({}, path.string()), path, settings, nullptr);
+}
+
+Scene scene_file::read_scene_file_on(const Scene& suggested, const std::filesystem::path& path,
+                                     const std::vector<std::string>& settings) {
+  Scene open = suggested;
+  open.snapshot.clear();  // the file names it
+  return read_file(SceneBuilder(open, path.string()), path, settings, &open);
 }
 
 Scene parse_scene(const std::string& text, const std::string& name_for_messages,

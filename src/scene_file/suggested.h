@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,5 +14,10 @@ namespace splotchcl::scene_file {
 // `suggested` is null for a scene that began otherwise, of which all was given.
 Scene apply_settings_to_suggested(const Scene& scene, const Scene* suggested,
                                   const std::vector<std::string>& settings);
+
+// read_scene_file for a file that completes a scene suggested for its snapshot. What neither the
+// file nor the settings give is as it was suggested.
+Scene read_scene_file_on(const Scene& suggested, const std::filesystem::path& path,
+                         const std::vector<std::string>& settings);
 
 }  // namespace splotchcl::scene_file

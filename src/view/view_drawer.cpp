@@ -113,6 +113,7 @@ class Seconds {
 FrameDrawerOptions drawer_options(const ViewDrawer::Options& options) {
   FrameDrawerOptions result;
   result.device = options.device;
+  result.light = PictureLight::both;  // a picture may be saved as floats
   result.shape = options.shape;
   result.progress = [go_on = options.go_on](const std::string&, double) {
     if (go_on && !go_on()) throw DrawingCancelled();

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <random>
 
 #include "paths.h"
@@ -51,6 +53,14 @@ double distance(const Camera& camera) {
   return boost::qvm::mag(camera.look_at - camera.position);
 }
 
+Scene classic(const Snapshot& snapshot) {
+  return suggest_scene(snapshot, Look::classic);
+}
+
+Component classic_component(const Snapshot& snapshot, const std::vector<int>& types) {
+  return suggest_component(snapshot, types, Look::classic);
+}
+
 // Half the width of what the camera sees at its look-at point.
 double half_width(const Camera& camera) {
   return distance(camera) * std::tan(field_of_view_degrees(camera) * 3.14159265358979 / 360);
@@ -61,7 +71,7 @@ TEST(SuggestScene, DrawsGasWithoutTheDarkMatterBesideIt) {
   snapshot.add(0, "position", ball(100, 0, 1), 3);
   snapshot.add(1, "position", ball(100, 0, 1), 3);
   snapshot.add(4, "position", ball(100, 0, 1), 3);
-  const Scene scene = suggest_scene(snapshot);
+  const Scene scene = classic(snapshot);
   ASSERT_EQ(scene.components.size(), 2u);
   EXPECT_EQ(scene.components[0].types, (std::vector<int>{0}));
   EXPECT_EQ(scene.components[1].types, (std::vector<int>{4}));
@@ -70,7 +80,7 @@ TEST(SuggestScene, DrawsGasWithoutTheDarkMatterBesideIt) {
 TEST(SuggestScene, BringsAllLightWithinReachOfTheDisplay) {
   MemorySnapshot snapshot;
   snapshot.add(0, "position", ball(100, 0, 1), 3);
-  const Scene scene = suggest_scene(snapshot);
+  const Scene scene = classic(snapshot);
   EXPECT_EQ(scene.components[0].absorption.kind, Absorption::Kind::none);
   EXPECT_EQ(scene.finish.tone, ToneCurve::filmic);
   EXPECT_FALSE(scene.finish.exposure || scene.finish.white);
@@ -80,7 +90,7 @@ TEST(SuggestScene, DrawsEveryTypeWhereThereIsNoGas) {
   MemorySnapshot snapshot;
   snapshot.add(1, "position", ball(100, 0, 1), 3);
   snapshot.add(2, "position", ball(100, 0, 1), 3);
-  const Scene scene = suggest_scene(snapshot);
+  const Scene scene = classic(snapshot);
   ASSERT_EQ(scene.components.size(), 2u);
   EXPECT_EQ(scene.components[0].name, "halo");
   EXPECT_EQ(scene.components[1].name, "disk");
@@ -93,7 +103,7 @@ TEST(SuggestScene, DrawsTheDiscAndBulgeOfAGalaxyThatHasGas) {
   for (const int type : {0, 1, 2, 3, 4})
     snapshot.add(type, "position", ball(100, 0, 1), 3);
   std::vector<std::string> names;
-  for (const Component& component : suggest_scene(snapshot).components)
+  for (const Component& component : classic(snapshot).components)
     names.push_back(component.name);
   EXPECT_EQ(names, (std::vector<std::string>{"gas", "disk", "bulge", "stars"}));
 }
@@ -103,7 +113,7 @@ TEST(SuggestScene, LeavesOutTheFarDarkMatterOfAUniverse) {
   for (const int type : {0, 1, 2, 3})
     snapshot.add(type, "position", ball(100, 0, 1), 3);
   snapshot.set_cosmology(Cosmology());
-  const Scene scene = suggest_scene(snapshot);
+  const Scene scene = classic(snapshot);
   ASSERT_EQ(scene.components.size(), 1u);
   EXPECT_EQ(tell_not_drawn(scene, snapshot), "not drawn: halo 100, disk 100, bulge 100");
 }
@@ -112,7 +122,7 @@ TEST(SuggestScene, HasNothingToTellWhereAllIsDrawn) {
   MemorySnapshot snapshot;
   snapshot.add(1, "position", ball(100, 0, 1), 3);
   snapshot.add(2, "position", ball(100, 0, 1), 3);
-  EXPECT_EQ(tell_not_drawn(suggest_scene(snapshot), snapshot), "");
+  EXPECT_EQ(tell_not_drawn(classic(snapshot), snapshot), "");
 }
 
 TEST(SuggestScene, DrawsParticlesInColorsOfTheirOwnTogether) {
@@ -121,7 +131,7 @@ TEST(SuggestScene, DrawsParticlesInColorsOfTheirOwnTogether) {
     snapshot.add(type, "position", ball(100, 0, 1), 3);
     if (type != 4) snapshot.add(type, "Color", std::vector<float>(300, 0.5f), 3);
   }
-  const Scene scene = suggest_scene(snapshot);
+  const Scene scene = classic(snapshot);
   ASSERT_EQ(scene.components.size(), 2u);
   EXPECT_EQ(scene.components[0].types, (std::vector<int>{0, 2}));
   EXPECT_EQ(scene.components[0].color_vector, "Color");
@@ -135,7 +145,7 @@ TEST(SuggestScene, TakesNoColorsBelowZeroForLight) {
   std::vector<float> colors(300, 0.5f);
   colors[7] = -1;
   snapshot.add(0, "Color", colors, 3);
-  EXPECT_EQ(suggest_scene(snapshot).components[0].color_vector, "");
+  EXPECT_EQ(classic(snapshot).components[0].color_vector, "");
 }
 
 TEST(SuggestComponent, FitsTheTypesThatAreAskedFor) {
@@ -143,10 +153,10 @@ TEST(SuggestComponent, FitsTheTypesThatAreAskedFor) {
   snapshot.add(0, "position", ball(100, 0, 1), 3);
   snapshot.add(0, "internal_energy", powers_of_ten(100, 4));
   snapshot.add(1, "position", ball(100, 0, 1), 3);
-  EXPECT_EQ(suggest_component(snapshot, {0}).color.field, "internal_energy");
-  EXPECT_EQ(suggest_component(snapshot, {1}).color.field, "density");
-  EXPECT_EQ(suggest_component(snapshot, {0, 1}).color.field, "density");
-  EXPECT_EQ(suggest_component(snapshot, {0, 1}).types, (std::vector<int>{0, 1}));
+  EXPECT_EQ(classic_component(snapshot, {0}).color.field, "internal_energy");
+  EXPECT_EQ(classic_component(snapshot, {1}).color.field, "density");
+  EXPECT_EQ(classic_component(snapshot, {0, 1}).color.field, "density");
+  EXPECT_EQ(classic_component(snapshot, {0, 1}).types, (std::vector<int>{0, 1}));
 }
 
 TEST(SuggestScene, ColorsGasByItsHeatIfThatVaries) {
@@ -154,7 +164,7 @@ TEST(SuggestScene, ColorsGasByItsHeatIfThatVaries) {
   snapshot.add(0, "position", ball(100, 0, 1), 3);
   snapshot.add(0, "density", powers_of_ten(100, 3));
   snapshot.add(0, "internal_energy", powers_of_ten(100, 4));
-  const Component gas = suggest_scene(snapshot).components[0];
+  const Component gas = classic(snapshot).components[0];
   EXPECT_EQ(gas.color.field, "internal_energy");
   EXPECT_EQ(gas.color.scaling, Scaling::log);
   EXPECT_NEAR(std::log10(*gas.color.maximum), 3.94, 0.02);
@@ -165,7 +175,7 @@ TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatIsTheSameEverywhere) {
   snapshot.add(0, "position", ball(100, 0, 1), 3);
   snapshot.add(0, "density", powers_of_ten(100, 3));
   snapshot.add(0, "internal_energy", std::vector<float>(100, 0.05f));
-  EXPECT_EQ(suggest_scene(snapshot).components[0].color.field, "density");
+  EXPECT_EQ(classic(snapshot).components[0].color.field, "density");
 }
 
 TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatHardlyVaries) {
@@ -173,7 +183,7 @@ TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatHardlyVaries) {
   snapshot.add(0, "position", ball(100, 0, 1), 3);
   snapshot.add(0, "density", powers_of_ten(100, 1));
   snapshot.add(0, "temperature", powers_of_ten(100, 0.1));
-  EXPECT_EQ(suggest_scene(snapshot).components[0].color.field, "density");
+  EXPECT_EQ(classic(snapshot).components[0].color.field, "density");
 }
 
 TEST(SuggestScene, CutsARangeThatReachesDownToWhatIsAlmostZero) {
@@ -182,7 +192,7 @@ TEST(SuggestScene, CutsARangeThatReachesDownToWhatIsAlmostZero) {
   std::vector<float> density = powers_of_ten(1000, 3);
   std::fill(density.begin(), density.begin() + 40, 9e-43f);  // 4 %
   snapshot.add(0, "density", density);
-  const Component gas = suggest_scene(snapshot).components[0];
+  const Component gas = classic(snapshot).components[0];
   EXPECT_NEAR(*gas.color.minimum, 1.3, 0.2);
   EXPECT_NEAR(*gas.color.maximum, 970, 30);
 }
@@ -193,7 +203,7 @@ TEST(SuggestScene, NeverSpansMoreThanEightPowersOfTen) {
   std::vector<float> density = powers_of_ten(1000, 3);
   std::fill(density.begin(), density.begin() + 700, 9e-43f);
   snapshot.add(0, "density", density);
-  const Component gas = suggest_scene(snapshot).components[0];
+  const Component gas = classic(snapshot).components[0];
   EXPECT_NEAR(*gas.color.maximum / *gas.color.minimum, 1e8, 2e6);
 }
 
@@ -201,7 +211,7 @@ TEST(SuggestScene, LetsWhatIsDenserStandOutInAnEvenBox) {
   MemorySnapshot snapshot;
   snapshot.add(1, "position", cube(5000, 100), 3);
   snapshot.set_box_size(100);
-  const Component even = suggest_scene(snapshot).components[0];
+  const Component even = classic(snapshot).components[0];
   EXPECT_EQ(even.intensity.field, "density");
   ASSERT_TRUE(even.intensity.percentiles);
   EXPECT_GE((*even.intensity.percentiles)[0], 30);
@@ -217,7 +227,7 @@ TEST(SuggestScene, LeavesTheContrastOfAClusteredBoxAsItIs) {
   }
   snapshot.add(1, "position", position, 3);
   snapshot.set_box_size(100);
-  EXPECT_EQ(suggest_scene(snapshot).components[0].intensity.field, "");
+  EXPECT_EQ(classic(snapshot).components[0].intensity.field, "");
 }
 
 TEST(SuggestScene, DrawsSmallerCloudsWhereAllOfAnEvenBoxHaveOneSize) {
@@ -225,15 +235,15 @@ TEST(SuggestScene, DrawsSmallerCloudsWhereAllOfAnEvenBoxHaveOneSize) {
   snapshot.add(0, "position", cube(5000, 100), 3);
   snapshot.add(0, "smoothing_length", std::vector<float>(5000, 12));
   snapshot.set_box_size(100);
-  EXPECT_LT(suggest_scene(snapshot).components[0].size_factor, 0.5);
+  EXPECT_LT(classic(snapshot).components[0].size_factor, 0.5);
 }
 
 TEST(SuggestScene, WeighsByMassOnlyWhereMassesAreKnown) {
   MemorySnapshot snapshot;
   snapshot.add(0, "position", ball(100, 0, 1), 3);
-  EXPECT_EQ(suggest_scene(snapshot).components[0].weight, WeightModel::constant);
+  EXPECT_EQ(classic(snapshot).components[0].weight, WeightModel::constant);
   snapshot.set_table_mass(0, 3);
-  EXPECT_EQ(suggest_scene(snapshot).components[0].weight, WeightModel::mass);
+  EXPECT_EQ(classic(snapshot).components[0].weight, WeightModel::mass);
 }
 
 TEST(SuggestCamera, LooksAtTheMiddleOfAPeriodicBox) {
@@ -341,20 +351,25 @@ TEST(SuggestCamera, RefusesDataWithoutAFinitePosition) {
   EXPECT_THROW(suggest_scene(snapshot), DataError);
 }
 
-// The brightest channel of every pixel, in increasing order.
-std::vector<float> brightness(const Image& image) {
-  std::vector<float> values;
-  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
-    values.push_back(std::max({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]}));
-  }
-  std::sort(values.begin(), values.end());
-  return values;
+// Of every pixel one value, in increasing order.
+using OfPixel = std::function<float(const float*)>;
+float brightest_channel(const float* pixel) {
+  return std::max({pixel[0], pixel[1], pixel[2]});
+}
+float darkest_channel(const float* pixel) {
+  return std::min({pixel[0], pixel[1], pixel[2]});
 }
 
-std::vector<float> drawn(const Scene& scene, const Snapshot& snapshot) {
+std::vector<float> drawn(const Scene& scene, const Snapshot& snapshot,
+                         const OfPixel& value = brightest_channel) {
   std::vector<std::string> notes;
   const auto draw = [](const Frame& frame) { return reference::render(frame).to_float(); };
-  return brightness(draw_pictures(scene, snapshot, draw, notes).front().image);
+  const Image image = draw_pictures(scene, snapshot, draw, notes).front().image;
+  std::vector<float> values;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+    values.push_back(value(&image.pixels[i]));
+  std::sort(values.begin(), values.end());
+  return values;
 }
 
 // Of values in increasing order.
@@ -379,7 +394,7 @@ class SuggestedPicture : public testing::TestWithParam<const char*> {
 // 8 bits hold nothing brighter than (1 - 0.5 / 255)^gamma.
 TEST_P(SuggestedPicture, HasHardlyAnyWhitePixels) {
   const double white = std::pow(1 - 0.5 / 255, scene_.image.gamma);
-  EXPECT_LE(part_from(white, drawn(scene_, *snapshot_)), 0.005);
+  EXPECT_LE(part_from(white, drawn(scene_, *snapshot_, darkest_channel)), 0.005);
 }
 
 // Matter fills what has a thousandth of the light of the brightest pixel.
@@ -389,6 +404,23 @@ TEST_P(SuggestedPicture, ShowsAQuarterOfItselfOrAsMuchAsMatterFills) {
   const std::vector<float> light = drawn(as_drawn, *snapshot_);
   const double filled = part_from(1e-3 * static_cast<double>(light.back()), light);
   EXPECT_GE(part_from(0.02, drawn(scene_, *snapshot_)), std::min(0.25, filled));
+}
+
+// Of the light in it, how much is not gray: 0 to 1.
+TEST_P(SuggestedPicture, HasColors) {
+  const auto saturation = [](const float* pixel) {
+    const float most = brightest_channel(pixel);
+    return most > 0.02F ? (most - darkest_channel(pixel)) / most : -1;
+  };
+  const std::vector<float> values = drawn(scene_, *snapshot_, saturation);
+  const auto first = std::lower_bound(values.begin(), values.end(), 0.0F);
+  ASSERT_NE(first, values.end());
+  EXPECT_GT(std::accumulate(first, values.end(), 0.0F) / static_cast<float>(values.end() - first),
+            0.2F);
+}
+
+TEST_P(SuggestedPicture, FillsSomeOfItsFrame) {
+  EXPECT_GT(part_from(0.02, drawn(scene_, *snapshot_)), 0.04);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -60,19 +60,21 @@ MemorySnapshot gas_and_stars() {
 }
 
 TEST(MapTrust, NoSuggestionForPicturesChangesAMap) {
-  for (const auto& make : {even_gas, few_stars, with_colors, gas_and_stars}) {
-    const MemorySnapshot snapshot = make();
-    const Scene suggested = suggest_scene(snapshot);
-    for (const Component& component : suggested.components) {
-      Scene plain = map_scene();
-      plain.components.front().types = component.types;
-      Scene scene = suggested;
-      scene.components = {component};
-      scene.map = plain.map;
-      scene.tolerance = plain.tolerance;
-      scene.image.width = plain.image.width;
-      scene.image.height = plain.image.height;
-      EXPECT_EQ(map_of(scene, snapshot).values, map_of(plain, snapshot).values) << component.name;
+  for (const Look look : {Look::press, Look::classic, Look::paper}) {
+    for (const auto& make : {even_gas, few_stars, with_colors, gas_and_stars}) {
+      const MemorySnapshot snapshot = make();
+      const Scene suggested = suggest_scene(snapshot, look);
+      for (const Component& component : suggested.components) {
+        Scene plain = map_scene();
+        plain.components.front().types = component.types;
+        Scene scene = suggested;
+        scene.components = {component};
+        scene.map = plain.map;
+        scene.tolerance = plain.tolerance;
+        scene.image.width = plain.image.width;
+        scene.image.height = plain.image.height;
+        EXPECT_EQ(map_of(scene, snapshot).values, map_of(plain, snapshot).values) << component.name;
+      }
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pictures/other_scenes.h"
 #include "splotchcl/error.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene_file.h"
@@ -26,6 +27,7 @@ Frame frame_of(const Scene& scene) {
   frame.width = width;
   frame.height = height;
   frame.crop = {0, 0, width, height};
+  frame.background = {1, 1, 1};
   frame.projection = scene.camera->projection;
   frame.camera = make_camera_frame(*scene.camera, width, height);
   return frame;
@@ -63,11 +65,12 @@ std::vector<std::string> suffixes(const std::vector<Picture>& pictures) {
   return all;
 }
 
-// Light that rises to the right, and doubles from drawing to drawing.
+// Light that rises to the right, doubles from drawing to drawing, and is as many times brighter as
+// the background.
 DrawFrame rising_light() {
   return [number = 0](const Frame& frame) mutable {
     Image image(frame.crop.width, frame.crop.height);
-    const auto factor = static_cast<float>(1 << number++);
+    const auto factor = static_cast<float>(frame.background[0] * (1 << number++));
     for (int y = 0; y < image.height; ++y) {
       for (int x = 0; x < image.width; ++x)
         std::fill_n(image.at(x, y), 3, factor * static_cast<float>(1 + frame.crop.x + x));
@@ -287,6 +290,59 @@ TEST(Pictures, ThatNoCameraCanTakeAreRefusedBeforeAnythingIsRead) {
   expect_refused({"stereo.angle=0"}, "stereo.angle", "> 0");
   expect_refused({"finish.scale_bar.show=true", "camera.projection=fisheye"},
                  "finish.scale_bar.show", "perspective");
+}
+
+DrawnPictures all_light(const Scene& scene, const Frame& frame, PictureLight light) {
+  std::vector<std::string> notes;
+  OtherScenes others;
+  return draw_pictures(scene, frame, SnapshotInfo(), rising_light(), notes, others, light);
+}
+
+TEST(LightAsDrawn, IsThatOfExposureZeroBitForBit) {
+  const std::vector<std::string> finished = {"finish.exposure=3", "finish.tone=filmic",
+                                             "finish.white=5", "finish.bloom=0.2",
+                                             "finish.saturation=2"};
+  const Scene plain = scene_with({}), scene = scene_with(finished);
+  const Picture both = all_light(scene, frame_of(scene), PictureLight::both).pictures[0];
+  const Picture drawn = all_light(scene, frame_of(scene), PictureLight::drawn).pictures[0];
+  const Picture exposed = all_light(plain, frame_of(plain), PictureLight::shown).pictures[0];
+  EXPECT_EQ(both.light.pixels, exposed.image.pixels);
+  EXPECT_EQ(drawn.light.pixels, exposed.image.pixels);
+  EXPECT_NE(both.image.pixels, exposed.image.pixels);
+  EXPECT_TRUE(drawn.image.pixels.empty());
+  EXPECT_TRUE(exposed.light.pixels.empty());
+}
+
+TEST(LightAsDrawn, IsExposedByWhatItTells) {
+  const Scene scene = scene_with({"finish.exposure=auto"});
+  const DrawnPictures drawn = all_light(scene, frame_of(scene), PictureLight::drawn);
+  EXPECT_TRUE(drawn.finish.exposure);
+  EXPECT_EQ(drawn.pictures[0].light.at(3, 0)[0], 4);
+}
+
+TEST(LightAsDrawn, FadesAsThePictureDoes) {
+  const Scene scene = scene_with({"finish.fade=1", "finish.fade_color=[1,0,0]"});
+  const Picture both = all_light(scene, frame_of(scene), PictureLight::both).pictures[0];
+  EXPECT_EQ(both.light.pixels, both.image.pixels);
+}
+
+TEST(LightAsDrawn, IsNotKeptOfAnaglyphs) {
+  const Scene scene = scene_with({"stereo.layout=anaglyph"});
+  const Picture both = all_light(scene, frame_of(scene), PictureLight::drawn).pictures[0];
+  EXPECT_TRUE(both.light.pixels.empty());
+  EXPECT_FALSE(both.image.pixels.empty());
+}
+
+// What shines beside a crop glows in it.
+TEST(Pictures, GlowInACropAsInTheWhole) {
+  const Scene scene = scene_with({"finish.bloom=0.5"});
+  Frame frame = frame_of(scene);
+  const Image whole = all_light(scene, frame, PictureLight::shown).pictures[0].image;
+  frame.crop = {1, 1, 2, 2};
+  const Image part = all_light(scene, frame, PictureLight::shown).pictures[0].image;
+  ASSERT_EQ(part.width, 2);
+  for (int x = 0; x < 2; ++x)
+    EXPECT_EQ(part.at(x, 0)[0], whole.at(1 + x, 1)[0]);
 }
 
 }  // namespace

@@ -305,6 +305,21 @@ TEST(SettingsOfASuggestedScene, TurnTheSkyWhereTheCameraLooksAlongIt) {
   EXPECT_TRUE(same(sky("camera.position=[0, 9, 1]"), {{0, 1, 0}}));
 }
 
+double bloom_with(const std::vector<std::string>& settings) {
+  Scene scene;
+  scene.camera.emplace();
+  scene.finish.bloom = 0.1;
+  return scene_file::apply_settings_to_suggested(scene, &scene, settings).finish.bloom;
+}
+
+TEST(SettingsOfASuggestedScene, StopTheGlowAtTheSeamsOfPanoramasAndCubes) {
+  EXPECT_EQ(bloom_with({}), 0.1);
+  EXPECT_EQ(bloom_with({"camera.projection=fisheye"}), 0.1);
+  EXPECT_EQ(bloom_with({"camera.projection=cube"}), 0);
+  EXPECT_EQ(bloom_with({"camera.projection=equirectangular"}), 0);
+  EXPECT_THROW(bloom_with({"camera.projection=cube", "finish.bloom=0.2"}), UsageError);
+}
+
 std::pair<int, int> size_of_panorama_with(std::vector<std::string> settings) {
   settings.emplace_back("camera.projection=equirectangular");
   Scene scene;

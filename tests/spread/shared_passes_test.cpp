@@ -66,6 +66,10 @@ const std::string gas_text =
 
 using MakeScene = std::function<Scene(const Snapshot&)>;
 
+Scene suggested(const Snapshot& snapshot) {
+  return suggest_scene(snapshot);
+}
+
 MakeScene given(const std::string& text) {
   return [text](const Snapshot&) { return parse_scene(text, "scene"); };
 }
@@ -135,7 +139,7 @@ void expect_shares(const Arrays& arrays, const MakeScene& make, double at_most =
 }
 
 TEST(SharedPasses, AreThoseOfASnapshotAlone) {
-  expect_shares(many(), suggest_scene);
+  expect_shares(many(), suggested);
 }
 
 TEST(SharedPasses, FindTheEndsOfFields) {
@@ -185,7 +189,7 @@ TEST(SharedPasses, FindLengthsFromNeighbors) {
     arrays.at(type).scalars.erase("density");
   }
   arrays.at(gas).vectors.at("position")[300] = std::nanf("");
-  expect_found_by_one(arrays, suggest_scene);
+  expect_found_by_one(arrays, suggested);
 }
 
 // Counts what this rank broadcasts.
@@ -222,7 +226,7 @@ TEST(SharedPasses, TellTheLengthsThatEachHasFound) {
 }
 
 TEST(SharedPasses, LeaveNothingOpenToRanksWithoutParticles) {
-  expect_found_by_one(gas_and_stars(2, 1), suggest_scene);
+  expect_found_by_one(gas_and_stars(2, 1), suggested);
 }
 
 // One line, whatever the others are at.

@@ -142,7 +142,7 @@ std::vector<std::string> DrawnFrame::all_notes() const {
 
 struct FrameDrawer::State {
   explicit State(const FrameDrawerOptions& options)
-      : progress(options.progress), tree(options.tree) {
+      : progress(options.progress), light(options.light), tree(options.tree) {
     plan_options.certify = options.certify;
     if (options.by_reference) return;
     const auto open = [of_renderer = renderer_options(options)] {
@@ -205,6 +205,23 @@ struct FrameDrawer::State {
     return image;
   }
 
+  // What is found of errors counts in units of what is shown as white (units_of_white.h). A map of
+  // them needs drawings that count them so from the start.
+  bool keeps_promise(double gain, DrawnFrame& drawn) const {
+    if (!renderer.valid()) return true;  // the reference has none
+    std::vector<double>& errors = drawn.stats.check.errors_of_promise;
+    const bool is_kept = !plan_options.certify && !errors.empty() && gain * errors.back() <= 1 &&
+                         gain * drawn.tree.found <= 1;
+    if (is_kept) {
+      errors.back() *= gain;
+      drawn.tree.found *= gain;
+    } else {
+      drawn.stats.check = {};
+      drawn.tree = {};
+    }
+    return is_kept;
+  }
+
   bool is_open() const {
     return renderer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }
@@ -244,7 +261,8 @@ struct FrameDrawer::State {
     drawn.notes = std::move(notes);
     DrawnPictures pictures = draw_pictures(
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn); },
-        drawn.notes, other_scenes);
+        drawn.notes, other_scenes, light,
+        [&](double gain) { return keeps_promise(gain, drawn); });
     drawn.pictures = std::move(pictures.pictures);
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
@@ -255,6 +273,7 @@ struct FrameDrawer::State {
   }
 
   std::function<void(const std::string&, double)> progress;
+  PictureLight light;
   PlanOptions plan_options;
   TreeUse tree = TreeUse::automatic;
   std::shared_future<std::shared_ptr<Renderer>> renderer;  // none: the reference draws
@@ -298,7 +317,16 @@ ImageFileOptions image_file_options(const Scene& scene,
   options.dithers = scene.image.dither.value_or(!options.truncates);
   options.metadata = std::move(metadata);
   options.metadata["splotchcl:version"] = SPLOTCHCL_VERSION;
+  const FinishSettings& finish = scene.finish;
+  if (finish.exposure) options.metadata["splotchcl:exposure"] = fmt::format("{}", *finish.exposure);
+  if (finish.white) options.metadata["splotchcl:white"] = fmt::format("{}", *finish.white);
   return options;
+}
+
+PictureLight light_of_file(const std::filesystem::path& output) {
+  constexpr int whole_numbers = 16;
+  if (!holds_floats(output, std::nullopt)) return PictureLight::shown;
+  return holds_floats(output, whole_numbers) ? PictureLight::drawn : PictureLight::both;
 }
 
 void write_pictures(const std::filesystem::path& output, const std::vector<Picture>& pictures,
@@ -306,7 +334,11 @@ void write_pictures(const std::filesystem::path& output, const std::vector<Pictu
   for (const Picture& picture : pictures) {
     ImageFileOptions with_places = options;
     with_places.places = picture.places;
-    write_image(picture_path(output, picture.suffix), picture.image, with_places);
+    const bool is_as_drawn = !picture.light.pixels.empty() && holds_floats(output, options.bits);
+    with_places.metadata["splotchcl:light"] =
+        is_as_drawn ? "scene-linear, exposure not applied" : "linear, as displayed";
+    write_image(picture_path(output, picture.suffix), is_as_drawn ? picture.light : picture.image,
+                with_places);
   }
 }
 

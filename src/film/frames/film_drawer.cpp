@@ -15,27 +15,39 @@ FilmDrawer::FilmDrawer(const FrameDrawerOptions& options,
 // The future waits for the frame that is being written.
 FilmDrawer::~FilmDrawer() = default;
 
-bool FilmDrawer::lacks_tone(const Scene& scene, const OtherScenes& other_scenes) const {
+namespace {
+
+bool leaves_tone_to_pictures(const Scene& scene) {
   const bool is_black = scene.finish.cross_fade.amount == 1 || scene.finish.fade == 1;
-  return (!tone_ && !is_black && has_open_tone(scene.finish)) || other_scenes.lacks_tone(scene);
+  return !is_black && has_open_tone(scene.finish);
 }
 
-void FilmDrawer::decide_tone(const Scene& scene, const Snapshot& snapshot,
+}  // namespace
+
+bool FilmDrawer::asks_for_tone(const Scene& scene, const OtherScenes& other_scenes) {
+  return leaves_tone_to_pictures(scene) || other_scenes.lacks_tone(scene);
+}
+
+bool FilmDrawer::lacks_tone(const Scene& scene, const OtherScenes& other_scenes) const {
+  return (tone_.is_empty() && leaves_tone_to_pictures(scene)) || other_scenes.lacks_tone(scene);
+}
+
+void FilmDrawer::decide_tone(int frame, const Scene& scene, const Snapshot& snapshot,
                              OtherScenes& other_scenes) {
-  const DrawnFrame drawn = drawer_.draw(with_known_tone(scene), snapshot, other_scenes);
-  if (tone_ || !has_open_tone(scene.finish) || !drawn.finish) return;
-  if (!has_open_tone(*drawn.finish)) tone_ = drawn.finish;
+  const DrawnFrame drawn = drawer_.draw(scene, snapshot, other_scenes);
+  if (!leaves_tone_to_pictures(scene) || !drawn.finish) return;
+  if (!has_open_tone(*drawn.finish)) tone_.add(frame, *drawn.finish);
 }
 
-Scene FilmDrawer::with_known_tone(Scene scene) const {
-  if (tone_) take_tone(*tone_, scene.finish);
+Scene FilmDrawer::with_known_tone(int frame, Scene scene) const {
+  tone_.give_to(scene.finish, frame);
   return scene;
 }
 
 RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
                              OtherScenes& other_scenes, const std::filesystem::path& output,
                              const std::function<void()>& before_writing) {
-  DrawnFrame drawn = drawer_.draw(with_known_tone(scene), snapshot, other_scenes);
+  DrawnFrame drawn = drawer_.draw(with_known_tone(frame, scene), snapshot, other_scenes);
   before_writing();
   tell(drawn.notes);
   tell_of_bad_particles(drawn);

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <functional>
 #include <future>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "film/frames/film_tone.h"
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/scene.h"
 
@@ -24,12 +24,15 @@ class FilmDrawer {
   FilmDrawer(const FilmDrawer&) = delete;
   FilmDrawer& operator=(const FilmDrawer&) = delete;
 
-  // Whether the frame leaves exposure or white to pictures, its own or those of the scene that it
-  // fades to, and none has been drawn that could decide.
+  // Whether the frame leaves exposure or white to pictures: its own, or those of a scene that it
+  // fades to and of which none has been drawn.
+  static bool asks_for_tone(const Scene& scene, const OtherScenes& other_scenes);
+  // Whether no frame has been drawn that could decide what this one leaves open.
   bool lacks_tone(const Scene& scene, const OtherScenes& other_scenes) const;
-  // Draws the frame for nothing but that. What it decides holds for all frames drawn later, so
-  // that the film does not flicker. Throws as FrameDrawer::draw.
-  void decide_tone(const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes);
+  // Draws the frame for nothing but that, before any is drawn to be kept. Throws as
+  // FrameDrawer::draw.
+  void decide_tone(int frame, const Scene& scene, const Snapshot& snapshot,
+                   OtherScenes& other_scenes);
 
   // The frame of this number as the scene shows it, to picture_path(output, ...), or to nowhere
   // where another rank writes it: an empty path. What it took.
@@ -44,12 +47,12 @@ class FilmDrawer {
   void tell(const std::vector<std::string>& notes);
 
  private:
-  Scene with_known_tone(Scene scene) const;
+  Scene with_known_tone(int frame, Scene scene) const;
   void tell_of_bad_particles(const DrawnFrame& drawn);
 
   FrameDrawer drawer_;
   std::function<void(const std::string&)> note_;
-  std::optional<FinishSettings> tone_;
+  FilmTone tone_;
   std::set<std::string> told_;
   bool has_told_bad_ = false;
   std::future<void> writing_;

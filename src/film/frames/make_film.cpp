@@ -155,22 +155,22 @@ class Film {
     return result;
   }
 
-  // The first frame that shows light decides what is left to pictures, whichever frames are drawn
-  // here: parts of a film agree. Only so many later ones are tried, over all of the film; where a
-  // frame fades to another scene, it may be any.
+  // Frames all along the film decide what is left to pictures, whichever frames are drawn here:
+  // parts of a film agree. Where a frame fades to another scene, it may be any.
   void decide_tone(FilmDrawer& drawer) {
-    constexpr int most_later = 16;
-    const int last = scene_.path().frame_count() - 1, later = std::min(most_later, last);
+    const int count = scene_.path().frame_count();
     const auto decide = [&](int frame) {
       const Scene scene = scene_.scene_at(frame);
-      if (!drawer.lacks_tone(scene, scene_.other_scenes())) return;
+      if (!FilmDrawer::asks_for_tone(scene, scene_.other_scenes())) return;
       status("finding the film's exposure");
-      drawer.decide_tone(scene, *scene_.snapshot_at(scene), scene_.other_scenes());
+      drawer.decide_tone(frame, scene, *scene_.snapshot_at(scene), scene_.other_scenes());
     };
-    for (int i = 0; i <= later; ++i)
-      decide(static_cast<int>(std::int64_t{last} * i / std::max(1, later)));
-    for (int frame = 0; frame <= last && !start_.finish.cross_fade.scene.empty(); ++frame) {
-      if (scene_.other_scenes().lacks_tone(scene_.scene_at(frame))) decide(frame);
+    for (const int frame : frames_that_decide(count))
+      decide(frame);
+    for (int frame = 0; frame < count; ++frame) {
+      if (drawer.lacks_tone(scene_.scene_at(frame), scene_.other_scenes()) &&
+          !start_.finish.cross_fade.scene.empty())
+        decide(frame);
     }
   }
 
@@ -185,6 +185,8 @@ class Film {
     of_drawer.memory_bytes = options_.memory_bytes;
     of_drawer.tree = options_.tree;
     of_drawer.ranks = options_.ranks;
+    if (has_files() && !options_.as_displayed)
+      of_drawer.light = light_of_file(files_.picture(frames.front(), ""));
     FilmDrawer drawer(of_drawer, report_.note);
     drawer.tell(scene_.notes());
     decide_tone(drawer);

@@ -38,7 +38,7 @@ class Difference:
 
 @dataclass
 class Image:
-    """A picture in linear light, with what is to be told of it.
+    """A picture, with what is to be told of it.
 
     In a notebook it shows itself. ``numpy.asarray(image)`` is `linear`.
     """
@@ -67,9 +67,10 @@ class Image:
 
     @property
     def linear(self) -> np.ndarray[Any, np.dtype[np.float32]]:
-        """Linear light: float32 of shape (height, width, 4), read-only, without a copy.
+        """Scene-linear light: float32 of shape (height, width, 4), read-only, without a copy.
 
-        Row 0 is the top. Red, green and blue have 1 for the display's white, and larger values
+        As it was drawn, without exposure, tone and whatever else `finish` does; `display` has
+        that. Row 0 is the top. Red, green and blue have 1 for the display's white, and larger values
         are kept; alpha is the opacity from 0 to 1. Color is premultiplied.
         """
         return np.asarray(self._picture)
@@ -103,11 +104,17 @@ class Image:
         values = np.frombuffer(self._picture.display(), np.uint8)
         return values.reshape(self.height, self.width, 3).copy()
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: str | os.PathLike[str], *, display: bool = False) -> None:
         """Writes a file whose ending chooses the format (png, exr, tif, jpg, ...).
 
-        EXR and TIFF hold linear light; EXR has the scene as text, too. The file appears under its
+        EXR, HDR and TIFF hold `linear`; EXR has the scene as text, too. The file appears under its
         name when it is complete.
+
+        Parameters
+        ----------
+        path : str or Path
+        display : bool
+            Files of floats hold what a display shows instead.
 
         Raises
         ------
@@ -116,7 +123,7 @@ class Image:
         DataError
             For a file that cannot be written.
         """
-        self._picture.save(Path(path))
+        self._picture.save(Path(path), display)
 
     def compare(self, reference: Image, limit: float = 0) -> Difference:
         """Holds this picture against another of its size.

@@ -43,7 +43,8 @@ def suggest(
     size : (int, int) or str, optional
         Width and height in pixels, ``(640, 480)`` or ``"640x480"``; 1024 x 1024 otherwise.
     settings : mapping, optional
-        Scene keys that override what was chosen.
+        Scene keys that override what was chosen. ``look``, "press", "classic" or "paper", says
+        what it is to look like.
 
     Raises
     ------
@@ -107,9 +108,10 @@ def open_drawable(
 
 
 def _suggested(source: Source, keys: dict[str, Any]) -> Drawable:
-    suggested = _core.suggest(source._source)
+    look = [_toml.setting("look", keys["look"])] if "look" in keys else []
+    suggested = _core.suggest(source._source, look)
     scene = Scene._of(suggested, suggested)
-    scene.update(keys)
+    scene.update({key: value for key, value in keys.items() if key != "look"})
     notes = _notes_of(source)
     not_drawn = _core.tell_not_drawn(scene._scene, source._source)
     return Drawable(scene, source, notes + ([not_drawn] if not_drawn else []))

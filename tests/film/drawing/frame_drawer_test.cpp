@@ -139,6 +139,50 @@ TEST_F(FrameDrawing, WritesEachPictureToItsFile) {
   EXPECT_EQ(folder.count_files(), 2U);
 }
 
+class FloatFiles : public FrameDrawing {
+ protected:
+  // Of a scene whose exposure is not 0.
+  Image written(const std::string& name, PictureLight light) {
+    FrameDrawerOptions options{"", true, {}};
+    options.light = light;
+    const Scene exposed = scene({"finish.exposure=2"});
+    const DrawnFrame drawn = FrameDrawer(options).draw(exposed, arrays_);
+    write_pictures(folder_ / name, drawn.pictures, image_file_options(exposed));
+    return read_image(folder_ / name);
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(FloatFiles, HoldLightWithoutExposure) {
+  const Image drawn = draw().pictures[0].image;
+  for (const char* name : {"a.exr", "a.tif"})
+    EXPECT_EQ(written(name, light_of_file(name)).pixels, drawn.pixels) << name;
+}
+
+TEST_F(FloatFiles, HoldWhatADisplayShowsIfThatIsDrawn) {
+  const Image shown = draw({"finish.exposure=2"}).pictures[0].image;
+  EXPECT_EQ(written("a.exr", PictureLight::shown).pixels, shown.pixels);
+}
+
+TEST_F(FloatFiles, SayWhichLightTheyHold) {
+  written("a.exr", PictureLight::drawn);
+  const auto metadata = read_image_info(folder_ / "a.exr").metadata;
+  EXPECT_THAT(metadata.at("splotchcl:light"), HasSubstr("scene-linear"));
+  EXPECT_EQ(metadata.at("splotchcl:exposure"), "2");
+  for (const char* name : {"a.tif", "a.hdr"}) {
+    written(name, PictureLight::both);
+    EXPECT_THAT(test::read_text(folder_ / name), HasSubstr("splotchcl:light: scene-linear"));
+    EXPECT_THAT(test::read_text(folder_ / name), HasSubstr("splotchcl:exposure: 2"));
+  }
+}
+
+TEST_F(FloatFiles, AreThoseThatAreNotWholeNumbers) {
+  EXPECT_EQ(light_of_file("a.png"), PictureLight::shown);
+  EXPECT_EQ(light_of_file("a.exr"), PictureLight::drawn);
+  EXPECT_EQ(light_of_file("a.hdr"), PictureLight::drawn);
+  EXPECT_EQ(light_of_file("a.tif"), PictureLight::both);
+}
+
 // By a device.
 class LaterOpening : public FrameDrawing {
  protected:

@@ -278,19 +278,25 @@ TEST_F(Films, HaveNoFramesOfOtherDataOfASingleComponent) {
   EXPECT_THAT(refusal(), HasSubstr("other.0"));
 }
 
-// A film whose light fades to an eighth, which a new exposure for each frame would make up for.
+// A film whose light fades to an eighth, which an exposure that follows it makes up for.
 class DarkeningFilms : public Films {
  protected:
   DarkeningFilms() {
+    write_scene("auto");
+    options_.as_displayed = true;
+    options_.output = folder_ / "frame_%d.exr";
+  }
+  void write_scene(const std::string& exposure) const {
     std::ofstream(folder_ / "film.toml") << "snapshot = 'halo.gadget'\n"
                                             "[image]\nsize = [16, 12]\n"
-                                            "[finish]\nexposure = 'auto'\n"
+                                            "[finish]\nexposure = '"
+                                         << exposure
+                                         << "'\n"
                                             "[[path.keyframes]]\nframe = 0\n"
                                             "'component.gas.brightness' = 1\n"
                                             "[[path.keyframes]]\nframe = 3\n"
                                             "'component.gas.brightness' = 0.125\n"
                                             "[[component]]\nname = 'gas'\nabsorption = 'none'\n";
-    options_.output = folder_ / "frame_%d.exr";
   }
   float light(int frame) const {
     const Image image = read_image(folder_ / ("frame_" + std::to_string(frame) + ".exr"));
@@ -301,10 +307,18 @@ class DarkeningFilms : public Films {
   }
 };
 
-TEST_F(DarkeningFilms, AreExposedAsTheirFirstFrameIs) {
+TEST_F(DarkeningFilms, AreExposedAsTheirBrightestFrameIs) {
   make_film(options_, report_);
   EXPECT_GT(light(0), 0.9F);
   EXPECT_NEAR(light(3) / light(0), 0.125, 1e-5);
+}
+
+TEST_F(DarkeningFilms, StayBrightWhereExposureFollows) {
+  write_scene("follow");
+  make_film(options_, report_);
+  EXPECT_GT(light(3), 0.6F);
+  for (int frame = 1; frame < 4; ++frame)
+    EXPECT_LT(std::abs(std::log2(light(frame) / light(frame - 1))), 1.2F) << frame;
 }
 
 TEST_F(DarkeningFilms, AreExposedAlikeInAllParts) {
