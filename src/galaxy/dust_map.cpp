@@ -170,6 +170,11 @@ DustMap::DustMap(const Image& picture, const GalaxySettings& settings, double wi
   depths_ = blurred(depths_, width_, sharpness);
 }
 
+void DustMap::multiply(const std::vector<double>& factors) {
+  for (std::size_t i = 0; i < depths_.size(); ++i)
+    depths_[i] *= factors[i];
+}
+
 void DustMap::unveil(Image& picture) const {
   for (int y = 0; y < picture.height; ++y) {
     for (int x = 0; x < picture.width; ++x) {

@@ -48,6 +48,8 @@ class DustMap {
   }
   // Of red, green and blue, relative to green; the same in a picture without colours.
   const Light& opacity() const { return opacity_; }
+  // Where the galaxy itself fades; a factor for each pixel, rows from the top.
+  void multiply(const std::vector<double>& factors);
   // What the picture would show without dust.
   void unveil(Image& picture) const;
 

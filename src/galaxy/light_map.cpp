@@ -122,8 +122,11 @@ LightMap::LightMap(const Image& picture, const GalaxySettings& settings, double 
   if (settings.radius_pixels) {
     radius_ = std::min(radius_, *settings.radius_pixels / file_pixels * plane_.pixel_size());
   }
-  fade(settings);
-  take_dust_away(settings);
+  darken_noise();
+  // What fades is no lane: dust is found before, and fades as the light does.
+  const std::vector<double> kept = kept_of_pixels(settings);
+  take_dust_away(settings, kept);
+  multiply(kept);
   center_color_ = mean_light_within(std::max(settings.bulge_radius_kpc, plane_.pixel_size()));
   if (!(total_light() > 0)) {
     throw DataError(
@@ -132,31 +135,47 @@ LightMap::LightMap(const Image& picture, const GalaxySettings& settings, double 
   }
 }
 
-void LightMap::fade(const GalaxySettings& settings) {
+// From half to one and a half thresholds: a sharp limit would show as an edge.
+void LightMap::darken_noise() {
+  if (!(threshold_ > 0)) return;
+  std::vector<double> kept;
+  for (int y = 0; y < picture_.height; ++y) {
+    for (int x = 0; x < picture_.width; ++x)
+      kept.push_back(smooth_step(mean(light_at(picture_, x, y)) / threshold_ - 0.5));
+  }
+  multiply(kept);
+}
+
+std::vector<double> LightMap::kept_of_pixels(const GalaxySettings& settings) const {
   const double border =
       std::max(1.0, settings.border_fade * std::min(picture_.width, picture_.height));
+  std::vector<double> kept;
   for (int y = 0; y < picture_.height; ++y) {
     for (int x = 0; x < picture_.width; ++x) {
       const DiskPlane::Point disk = plane_.in_disk({x + 0.5, y + 0.5});
       const int edge = std::min({x, y, picture_.width - 1 - x, picture_.height - 1 - y});
-      // From half to one and a half thresholds: a sharp limit would show as an edge.
-      const double brightness = mean(light_at(picture_, x, y));
-      const double above = threshold_ > 0 ? brightness / threshold_ - 0.5 : 1;
-      const double kept =
-          smooth_step(above) * smooth_step((edge + 0.5) / border) *
-          smooth_step((radius_ - std::hypot(disk[0], disk[1])) / (rim_fraction * radius_));
-      float* const pixel = picture_.at(x, y);
-      for (int i = 0; i < 3; ++i)
-        pixel[i] = static_cast<float>(kept * static_cast<double>(pixel[i]));
+      const double inside = radius_ - std::hypot(disk[0], disk[1]);
+      kept.push_back(smooth_step((edge + 0.5) / border) *
+                     smooth_step(inside / (rim_fraction * radius_)));
     }
+  }
+  return kept;
+}
+
+void LightMap::multiply(const std::vector<double>& factors) {
+  for (std::size_t i = 0; i < picture_.pixels.size(); ++i) {
+    if (i % 4 != 3)
+      picture_.pixels[i] =
+          static_cast<float>(factors[i / 4] * static_cast<double>(picture_.pixels[i]));
   }
 }
 
-void LightMap::take_dust_away(const GalaxySettings& settings) {
+void LightMap::take_dust_away(const GalaxySettings& settings, const std::vector<double>& kept) {
   const double lane = lane_fraction * radius_ / plane_.pixel_size();
   const double faintest =
       std::max(2 * threshold_, faint_fraction * mean(mean_light_within(half_fraction * radius_)));
   dust_.emplace(picture_, settings, lane, faintest);
+  dust_->multiply(kept);
   dust_->unveil(picture_);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "galaxy/dust_map.h"
 #include "galaxy/light.h"
@@ -78,8 +79,11 @@ class LightMap {
   DiskPlane::Point center() const { return center_; }
 
  private:
-  void fade(const GalaxySettings& settings);
-  void take_dust_away(const GalaxySettings& settings);
+  void darken_noise();
+  // How much of the galaxy is kept of each pixel, towards the picture's border and its own radius.
+  std::vector<double> kept_of_pixels(const GalaxySettings& settings) const;
+  void take_dust_away(const GalaxySettings& settings, const std::vector<double>& kept);
+  void multiply(const std::vector<double>& factors);
   Light mean_light_within(double radius) const;
 
   Sky sky_;

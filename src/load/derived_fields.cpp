@@ -54,6 +54,12 @@ Column temperatures(const Column& internal_energy, const Column& electron_abunda
       count, streams || is_streamed(internal_energy) || is_streamed(electron_abundance), make);
 }
 
+double temperature_of_one(double energy_unit) {
+  constexpr double x = hydrogen_mass_fraction, electrons = (1 + x) / (2 * x);
+  constexpr double weight = 4 / (1 + 3 * x + 4 * x * electrons);
+  return (adiabatic_index - 1) * energy_unit * weight * proton_mass_in_g / boltzmann_erg_per_kelvin;
+}
+
 std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldInfo& field) {
   if (field.unit.empty()) {
     // Gadget's own unit, and that of its descendants, of which their files say nothing.

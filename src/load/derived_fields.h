@@ -22,6 +22,9 @@ constexpr double hydrogen_mass_fraction = 0.76;
 Column temperatures(const Column& internal_energy, const Column& electron_abundance,
                     double energy_unit, std::size_t count, bool streams = false);
 
+// The same of gas with an internal energy of 1 that is all ionised.
+double temperature_of_one(double energy_unit);
+
 // The field's unit of energy per mass in (cm/s)^2, from its name and the header. Nothing
 // when it is not known.
 std::optional<double> energy_unit_in_cgs(const SnapshotInfo& info, const FieldInfo& field);

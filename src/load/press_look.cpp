@@ -6,6 +6,7 @@
 #include <string>
 
 #include "load/derived_fields.h"
+#include "load/suggest_camera.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"
 
@@ -30,14 +31,23 @@ void give_limits(const Decades& decades, FieldMap& map) {
   map.percentiles.reset();
 }
 
+// Of as many digits as one wants to read.
+double rounded_limit(double value) {
+  return round_to_decimals(value, decimals_for(value, 2));
+}
+
 bool is_in_universe(const SnapshotInfo& info) {
   return info.cosmology || info.redshift;
 }
 
-bool has_temperature(const Snapshot& snapshot, const ParticleTypeInfo& type) {
-  if (find_field(type, "temperature") != nullptr) return true;
-  const FieldInfo* const energy = find_field(type, "internal_energy");
-  return energy != nullptr && energy_unit_in_cgs(snapshot.info(), *energy).has_value();
+// What the field has for a kelvin, where that is known.
+std::optional<double> per_kelvin(const Snapshot& snapshot, const ParticleTypeInfo& type,
+                                 const std::string& heat) {
+  if (heat == "temperature") return 1;
+  const FieldInfo* const energy = find_field(type, heat);
+  if (heat != "internal_energy" || energy == nullptr) return std::nullopt;
+  const std::optional<double> unit = energy_unit_in_cgs(snapshot.info(), *energy);
+  return unit ? std::optional(1 / temperature_of_one(*unit)) : std::nullopt;
 }
 
 // Whole powers of ten around limits found in one snapshot: those of the others are mostly the same.
@@ -49,11 +59,11 @@ void widen_to_decades(FieldMap& map) {
 
 void color_gas(const Snapshot& snapshot, const ParticleTypeInfo& type, Component& component) {
   component.palette = "cosmos";
-  const bool is_by_heat =
-      component.color.field == "temperature" || component.color.field == "internal_energy";
-  if (is_by_heat && is_in_universe(snapshot.info()) && has_temperature(snapshot, type)) {
-    component.color.field = "temperature";
-    give_limits(temperatures_of_universe, component.color);
+  const std::optional<double> kelvin = per_kelvin(snapshot, type, component.color.field);
+  if (kelvin && is_in_universe(snapshot.info())) {
+    const auto [coldest, hottest] = temperatures_of_universe;
+    give_limits({rounded_limit(coldest * *kelvin), rounded_limit(hottest * *kelvin)},
+                component.color);
   } else {
     widen_to_decades(component.color);
   }

@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <vector>
 
 #include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
+#include "galaxy/light_map.h"
 
 namespace splotchcl::test {
 namespace {
@@ -154,6 +157,35 @@ TEST(GalaxyLight, CloudsThatShineInHydrogensLineAreNoStars) {
   image.at(110, 60)[0] = 0.9F;
   image.at(110, 60)[2] = 0.5F;
   EXPECT_EQ(make_galaxy(image, small_settings()).pixels_of_stars, 0u);
+}
+
+// In the column through the middle of an even disk, which reaches beyond a picture so high.
+double deepest_dust(int height, const GalaxySettings& settings) {
+  constexpr int width = 300;
+  constexpr double disk = 90;
+  Image picture(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double r = std::hypot(x + 0.5 - width / 2.0, y + 0.5 - height / 2.0);
+      const double light = 0.02 + 0.5 / (1 + std::exp((r - disk) / 4));
+      std::fill_n(picture.at(x, y), 3, static_cast<float>(light));
+    }
+  }
+  const LightMap map(picture, settings, 1);
+  double deepest = 0;
+  for (int y = 0; y < height; ++y)
+    deepest = std::max(deepest, map.dust().depth(width / 2, y));
+  return deepest;
+}
+
+TEST(GalaxyDust, IsNotWhereTheBorderFadesTheLight) {
+  EXPECT_LT(deepest_dust(130, GalaxySettings()), 0.45);
+}
+
+TEST(GalaxyDust, IsNotWhereTheDiskIsCutOff) {
+  GalaxySettings settings;
+  settings.radius_pixels = 60;
+  EXPECT_LT(deepest_dust(300, settings), 0.45);
 }
 
 }  // namespace
