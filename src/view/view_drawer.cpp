@@ -163,7 +163,11 @@ Frame ViewDrawer::load(const Scene& scene) const {
 }
 
 Frame ViewDrawer::sample(const Scene& scene, std::uint64_t particles) {
-  return sampler_.sample(load(scene), particles);
+  const Frame frame = load(scene);
+  if (particles > 0 && particle_count(frame) > particles) {
+    if (std::optional<Frame> nodes = tree_preview_.of(frame, particles)) return std::move(*nodes);
+  }
+  return sampler_.sample(frame, particles);
 }
 
 ViewPicture ViewDrawer::preview(const Scene& scene, const PreviewLevel& level) {

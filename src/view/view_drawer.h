@@ -9,6 +9,7 @@
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/open_scene.h"
 #include "splotchcl/snapshot_source.h"
+#include "tree/tree_preview.h"
 #include "view/frame_sample.h"
 #include "view/frame_scheduler.h"
 
@@ -69,6 +70,7 @@ class ViewDrawer {
   mutable std::shared_ptr<const Snapshot> moment_;  // of the sequence that was asked for last
   std::shared_ptr<const Snapshot> snapshot_;        // that was opened, with its columns
   FrameSampler sampler_;
+  TreePreview tree_preview_;
   FrameDrawer drawer_;
   std::uint64_t particles_ = 0;
 };

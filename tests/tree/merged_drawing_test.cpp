@@ -8,8 +8,10 @@
 
 #include "device/pictures.h"
 #include "long_tests.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/reference.h"
 #include "tree/tree_cut.h"
+#include "tree/tree_preview.h"
 #include "tree/tree_scenes.h"
 
 namespace splotchcl::test {
@@ -129,6 +131,44 @@ TEST_F(MergedDrawings, DrawPeriodicImagesNearestToACenter) {
   ASSERT_TRUE(drawing);
   EXPECT_GT(drawing->nodes, 100u);
   EXPECT_LE(error_of(drawing->image, frame), 1);
+}
+
+// A random part of the particles, brighter by as much as is left out.
+Frame random_part(Frame frame, std::size_t count) {
+  DrawnComponent& component = frame.components.front();
+  const std::size_t all = component.particles.count;
+  std::vector<std::uint64_t> places(all);
+  std::iota(places.begin(), places.end(), 0);
+  std::shuffle(places.begin(), places.end(), std::mt19937_64(1));
+  places.resize(count);
+  component.particles = picked_particles(component.particles, places);
+  component.reference_column *= static_cast<double>(count) / static_cast<double>(all);
+  return frame;
+}
+
+double root_mean_square(const Image& picture, const Image& exact) {
+  double sum = 0;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    const double error =
+        static_cast<double>(picture.pixels[i]) - static_cast<double>(exact.pixels[i]);
+    sum += error * error;
+  }
+  return std::sqrt(sum / static_cast<double>(exact.pixels.size()));
+}
+
+TEST_F(MergedDrawings, ErrLessThanAThirdOfWhatRandomPartsDoInPreviews) {
+  const Matter matter = clumps(200000, 26);
+  Frame frame = frame_of(matter, 80, 60);
+  plant(frame, tree_of(matter));
+  constexpr std::uint64_t splats = 20000;
+  TreePreview preview;
+  const std::optional<Frame> nodes = preview.of(frame, splats);
+  ASSERT_TRUE(nodes);
+  EXPECT_LE(particle_count(*nodes), splats);
+  EXPECT_GE(particle_count(*nodes), splats / 3);
+  const Image exact = draw(frame);
+  EXPECT_LT(root_mean_square(draw(*nodes), exact),
+            root_mean_square(draw(random_part(frame, splats)), exact) / 3);
 }
 
 TEST(TreeCut, OpensAllToParticlesWhereNothingMayErr) {
