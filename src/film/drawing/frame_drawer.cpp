@@ -175,6 +175,9 @@ struct FrameDrawer::State {
       if (auto merged =
               draw_merged(view, [&](const Frame& f) { return draw_alone(f, drawn.stats); })) {
         add(*merged, drawn.tree);
+        drawn.notes.emplace_back(
+            "drawn from the tree of merged particles: its tolerance is an estimate, checked on "
+            "blocks of the picture; --tree never draws the particles");
         return std::move(merged->image);
       }
       drawn.notes.push_back(
@@ -261,8 +264,7 @@ struct FrameDrawer::State {
     drawn.notes = std::move(notes);
     DrawnPictures pictures = draw_pictures(
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn); },
-        drawn.notes, other_scenes, light,
-        [&](double gain) { return keeps_promise(gain, drawn); });
+        drawn.notes, other_scenes, light, [&](double gain) { return keeps_promise(gain, drawn); });
     drawn.pictures = std::move(pictures.pictures);
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
