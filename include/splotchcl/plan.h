@@ -211,6 +211,9 @@ struct FramePlan {
   // (docs/dev/accuracy.md, "Slabs"). 0: all splats are in order.
   int slabs = 0;
   LayerLimits layers;
+  // Parts of the whole picture that are drawn before all of it, one after the other: where a frame
+  // is bright, only a drawing tells what it needs, and the plan is refined by that.
+  std::vector<Rectangle> tried_parts;
 
   // Whether the drawn splats have errors that add up, for the check to be told of them. The cut
   // values at pixel centers that the original program draws have none without coarse grids.

@@ -247,6 +247,17 @@ class FrameErrors {
   std::array<double, width_octaves> lights_{};  // that splats counted as
 };
 
+// Whether so many blocks or fewer lie between it and a side of the crop that is none of the
+// picture.
+bool is_at_edge(std::size_t block, const BlockErrors& blocks, const Frame& frame, int edge) {
+  const int x = static_cast<int>(block) % blocks.columns;
+  const int y = static_cast<int>(block) / blocks.columns;
+  const Rectangle& crop = frame.crop;
+  return (crop.x > 0 && x < edge) || (crop.y > 0 && y < edge) ||
+         (crop.x + crop.width < frame.width && blocks.columns - 1 - x < edge) ||
+         (crop.y + crop.height < frame.height && blocks.rows - 1 - y < edge);
+}
+
 }  // namespace
 
 bool needs_depths(const Frame& frame, const FramePlan& plan) {
@@ -255,7 +266,7 @@ bool needs_depths(const Frame& frame, const FramePlan& plan) {
 }
 
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
-                    const FramePlan& plan) {
+                    const FramePlan& plan, int edge) {
   constexpr std::size_t blocks_at_once = 256;
   if (!plan.has_errors_of_splats && !plan.needs_sort() && !plan.certify) {
     const ColorLight colors(image, splats.depths, frame, plan);
@@ -276,6 +287,7 @@ Certificate certify(const CollectedSplats& splats, const Image& image, const Fra
   certificate.blocks = BlockErrors(image.width, image.height);
   std::vector<Part> parts = errors.parts();
   for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (is_at_edge(b, certificate.blocks, frame, edge)) continue;
     const double error = blocks[b].sum();
     certificate.blocks.errors[b] = static_cast<float>(error * plan.shares.promise);
     if (plan.certify) certificate.is_bound &= errors.of_colors(b).is_bound;

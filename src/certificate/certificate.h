@@ -40,9 +40,11 @@ struct CollectedSplats {
 // Whether CollectedSplats::depths are looked at: in order, and in sums where colors are rounded.
 bool needs_depths(const Frame& frame, const FramePlan& plan);
 
-// docs/dev/accuracy.md ("Checked after drawing") derives it and says what is a bound.
+// docs/dev/accuracy.md ("Checked after drawing") derives it and says what is a bound. `edge`: so
+// many blocks along the sides count for nothing. Splats of a crop that lie beyond it count as if
+// they lay at its sides.
 Certificate certify(const CollectedSplats& splats, const Image& image, const Frame& frame,
-                    const FramePlan& plan);
+                    const FramePlan& plan, int edge = 0);
 
 // Of a picture in extended precision, which keeps its promise whatever the splats, but for the
 // colors of light that is far brighter in one channel than in another.

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <iterator>
 #include <vector>
 
@@ -13,8 +12,6 @@
 #include "certificate/octave_errors.h"
 #include "certificate/peak_cells.h"
 #include "certificate/width_octave.h"
-#include "parallel/for_blocks.h"
-#include "scene/plan/cloud_sample.h"
 #include "scene/plan/light_structure.h"
 
 namespace splotchcl {
@@ -127,22 +124,12 @@ bool can_expect_ends(const Frame& frame, const FramePlan& plan, bool is_sample) 
   return plan.needs_sort() && plan.slabs == 0 && !is_sample && !frame.kernel.cut;
 }
 
-// Splats that are cut and sampled at centers of pixels err by nothing that is to be expected.
-bool can_be_expected(const FramePlan& plan) {
-  return plan.has_errors_of_splats && !plan.is_extended() && !plan.certify && !plan.has_ellipses;
-}
-
 // What wider splats of light without absorption need is guessed from how bright it is
 // (make_plan.cpp).
 void keep_narrow_ones(SplatNeeds& needs) {
   constexpr std::size_t guessed = 2;
   std::fill(needs.widths.begin() + guessed, needs.widths.end(), WidthNeed());
   needs.grid_light = 1;
-}
-
-void all_cores(std::size_t count, std::size_t block_size,
-               const std::function<void(std::size_t, std::size_t)>& work) {
-  for_blocks(count, block_size, work);
 }
 
 // `error` is the most that any of them do.
@@ -176,13 +163,17 @@ void add_needs_of_ends(const ExpectedEnds& ends, SplatNeeds& needs) {
 
 }  // namespace
 
-std::optional<SplatNeeds> expected_needs(const Frame& frame, const FramePlan& plan,
-                                         bool on_all_cores) {
+bool can_be_expected(const FramePlan& plan) {
+  const bool has_errors = plan.has_errors_of_splats || plan.needs_sort();
+  return has_errors && !plan.is_extended() && !plan.certify && !plan.has_ellipses;
+}
+
+std::optional<SplatNeeds> expected_needs(const std::vector<SampledCloud>& clouds,
+                                         const Frame& frame, const FramePlan& plan,
+                                         const BlockLoop& loop) {
   // What may be left to the check: more where only a sample is known.
   constexpr double most_of_sample = 1, most_of_all = 0.3, most_of_ends = 0.7;
-  if (!can_be_expected(plan)) return std::nullopt;
-  const BlockLoop loop = on_all_cores ? all_cores : one_after_the_other;
-  const std::vector<SampledCloud> clouds = sample_clouds(frame, loop);
+  if (!plan.has_errors_of_splats) return std::nullopt;
   const bool is_sample = !clouds.empty() && clouds.front().weight > 1;
   const bool knows_ends = can_expect_ends(frame, plan, is_sample);
   SplatNeeds needs;

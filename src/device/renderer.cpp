@@ -15,10 +15,12 @@
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
 #include "device/ranks/fetch_particles.h"
+#include "parallel/for_blocks.h"
 #include "parallel/thread_pool.h"
 #include "ranks/exchange.h"
 #include "ranks/spread_particles.h"
 #include "scene/picture_limits.h"
+#include "scene/plan/tried_parts.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -143,6 +145,34 @@ void check_ranks(const Frame& frame, const Communicator* ranks) {
                    ", expected one of all of them; give it the same communicator as the snapshot");
 }
 
+void all_cores(std::size_t count, std::size_t block_size,
+               const std::function<void(std::size_t, std::size_t)>& work) {
+  for_blocks(count, block_size, work);
+}
+
+// Of the light of a frame (LightMap): beyond this, what slabs change by their order breaks the
+// promise nearly everywhere.
+constexpr double too_bright_for_slabs = 0.7;
+
+// Widths that hardly show in a part may show elsewhere: their splats are drawn nearly as much
+// farther as those that need it most.
+SplatNeeds with_all_octaves(SplatNeeds needs) {
+  constexpr double less = 1.5;
+  double farthest = 0;
+  for (const WidthNeed& need : needs.widths)
+    farthest = std::max(farthest, need.farther);
+  for (WidthNeed& need : needs.widths)
+    need.farther = std::max(need.farther, farthest - less);
+  return needs;
+}
+
+// From which light on parts of a frame are tried. Of many particles it takes a twentieth of a dim
+// frame, of which few have to be drawn again; of few it takes no longer than a part of them.
+double least_tried(const Frame& frame) {
+  constexpr std::uint64_t many = 1u << 20;
+  return particle_count(frame) > many ? 4 : 0.2;
+}
+
 // Ranks of one host take its devices in turn.
 int device_of_rank(const Communicator* ranks) {
   return ranks == nullptr ? 0 : ranks->rank_on_host();
@@ -171,6 +201,8 @@ struct Renderer::State {
   void join_ranks(const RendererOptions& options);
 
   Image render(const Frame& frame, const FramePlan& plan);
+  // A plan with what its parts that are to be tried turn out to need.
+  FramePlan try_out(const Frame& frame, const FramePlan& plan);
   bool is_first() const { return !ranks || ranks->rank() == 0; }
   // Draws until the promise is kept.
   DrawnPicture draw_until_kept(const Frame& frame, const FramePlan& plan);
@@ -233,7 +265,8 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   work = {};
   const FetchedParticles fetched(frame, plan, device.traits);
   const bool in_order = plan.slabs > 0 && !draws_slabs;
-  DrawnPicture picture = draw_until_kept(frame, in_order ? in_order_plan(frame, plan) : plan);
+  const FramePlan first = in_order ? in_order_plan(frame, plan) : plan;
+  DrawnPicture picture = draw_until_kept(frame, try_out(frame, first));
   stats.check.is_bound = plan.certify && picture.certificate.is_bound;
   Image image = std::move(picture.image);
   share(image);
@@ -250,6 +283,28 @@ Image Renderer::State::render(const Frame& frame, const FramePlan& plan) {
   stats.serial.push_back({"host", std::max(0.0, host_seconds)});
   device.timer.clear();
   return image;
+}
+
+// Others may need more than these parts, of which more is asked for that.
+FramePlan Renderer::State::try_out(const Frame& frame, const FramePlan& plan) {
+  constexpr double part_of_promise = 0.25;
+  constexpr int edge_blocks = 1;
+  FramePlan tried = plan;
+  for (const Rectangle& crop : plan.tried_parts) {
+    Frame part = frame;
+    part.crop = crop;
+    DrawnSplats splats;
+    const Image image = draw(part, tried, splats);
+    if (splats.counts.too_sharp > 0) return tried;
+    FramePlan stricter = tried;
+    stricter.shares.promise *= part_of_promise;
+    Certificate certificate;
+    if (is_first()) certificate = certify(splats.collected, image, part, stricter, edge_blocks);
+    share(certificate);
+    if (!certificate.keeps_promise())
+      tried = refine_plan(frame, tried, with_all_octaves(certificate.needs));
+  }
+  return tried;
 }
 
 DrawnPicture Renderer::State::draw_until_kept(const Frame& frame, const FramePlan& plan) {
@@ -404,9 +459,18 @@ Renderer& Renderer::operator=(Renderer&& other) noexcept {
 
 FramePlan Renderer::first_plan(const Frame& frame, const PlanOptions& options, bool on_all_cores) {
   check_frame(frame);
-  const FramePlan plan = make_plan(frame, options);
-  const std::optional<SplatNeeds> needs = expected_needs(frame, plan, on_all_cores);
-  return needs ? refine_plan(frame, plan, *needs) : plan;
+  FramePlan plan = make_plan(frame, options);
+  if (!can_be_expected(plan)) return plan;
+  const BlockLoop loop = on_all_cores ? all_cores : one_after_the_other;
+  const std::vector<SampledCloud> clouds = sample_clouds(frame, loop);
+  const LightMap light(clouds, frame);
+  const bool may_choose = plan.slabs > 0 && options.slabs < 0;
+  if (may_choose && light.of_bright_quarter() > too_bright_for_slabs)
+    plan = in_order_plan(frame, plan);
+  const std::optional<SplatNeeds> needs = expected_needs(clouds, frame, plan, loop);
+  if (needs) plan = refine_plan(frame, plan, *needs);
+  if (light.brightest() >= least_tried(frame)) plan.tried_parts = light.telling_parts(plan.light);
+  return plan;
 }
 
 Image Renderer::render(const Frame& frame) {

@@ -194,6 +194,21 @@ TEST_F(CertificateTest, AsksForAsMuchLightOfPeaksAsABrightPictureAmplifiesThem) 
   }
 }
 
+// What lies beyond a crop counts at its sides.
+TEST_F(CertificateTest, LeavesOutBlocksAlongTheSidesOfACropWhereAskedTo) {
+  PeakCells cells = empty_cells();
+  at(cells.endings, 0, 8) = static_cast<float>(10 * plan_.shares.promise / ending());
+  const auto keeps = [&](int edge) {
+    return certify({{cells}, 1, {}}, dark_picture(), frame_, plan_, edge).keeps_promise();
+  };
+  EXPECT_FALSE(keeps(2)) << "a side of the picture";
+  frame_.width = 2 * size;
+  frame_.crop.x = size;
+  cells.left = size;
+  EXPECT_FALSE(keeps(0));
+  EXPECT_TRUE(keeps(2));
+}
+
 // However many lie upon one another, they err by no more than a part of the pixel.
 TEST_F(CertificateTest, KnowsThatMeansOfBrightSplatsKeepTheirDigits) {
   PeakCells cells = empty_cells();

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
+#include "parallel/for_blocks.h"
 #include "reference/frames.h"
 
 namespace splotchcl::test {
@@ -27,7 +29,7 @@ Frame field_with_crowd(std::size_t field, std::size_t crowd) {
 }
 
 std::optional<SplatNeeds> needs_of(const Frame& frame) {
-  return expected_needs(frame, make_plan(frame));
+  return expected_needs(sample_clouds(frame), frame, make_plan(frame));
 }
 
 TEST(ExpectedNeeds, AreNoneWhereLightIsEven) {
@@ -51,8 +53,8 @@ TEST(ExpectedNeeds, AreFoundInASampleOfManyParticles) {
 
 TEST(ExpectedNeeds, AreNoneOfPlansThatNoEstimateChecks) {
   Frame frame = field_with_crowd(100, 5000);
-  EXPECT_FALSE(expected_needs(frame, make_plan(frame, {true, -1, true}))) << "a bound checks it";
-  EXPECT_FALSE(expected_needs(frame, extend_plan(frame, make_plan(frame)))) << "nothing is left";
+  EXPECT_FALSE(can_be_expected(make_plan(frame, {true, -1, true}))) << "a bound checks it";
+  EXPECT_FALSE(can_be_expected(extend_plan(frame, make_plan(frame)))) << "nothing is left";
 }
 
 Frame with_stars_that_only_shine(Frame frame) {
@@ -115,7 +117,11 @@ TEST(ExpectedNeeds, LeaveSplatsAsTheyAreThatEndWhereFewDo) {
 TEST(ExpectedNeeds, OfEndsAreTheSameOnOneCore) {
   const Frame frame = cluster_in_the_dark(2000, 0.02);
   const FramePlan plan = make_plan(frame);
-  const auto on_all = expected_needs(frame, plan), on_one = expected_needs(frame, plan, false);
+  const BlockLoop all_cores = [](std::size_t count, std::size_t size, const auto& work) {
+    for_blocks(count, size, work);
+  };
+  const auto on_all = expected_needs(sample_clouds(frame, all_cores), frame, plan, all_cores);
+  const auto on_one = expected_needs(sample_clouds(frame), frame, plan);
   ASSERT_TRUE(on_all && on_one);
   EXPECT_EQ(on_all->widths[3].farther, on_one->widths[3].farther);
 }

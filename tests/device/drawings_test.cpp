@@ -78,6 +78,19 @@ class Drawings : public PictureTest {
     return frame;
   }
 
+  // Of more particles than are all looked at before it is drawn.
+  static Frame many_in_a_small_place(double light) {
+    CloudSetup setup;
+    setup.width = setup.height = 40;
+    setup.count = 70000;
+    setup.sigma_low = 2;
+    setup.sigma_high = 5;
+    setup.column_low = setup.column_high = light;
+    Frame frame = frame_of(400, 300, {random_clouds(setup)});
+    frame.components[0].absorption = {Absorption::Kind::gray, 0.2};
+    return frame;
+  }
+
   // How many of the pixels from the first column on differ, and of those before it.
   static std::pair<int, int> differences(const Image& a, const Image& b, int first) {
     int beyond = 0, before = 0;
@@ -103,6 +116,16 @@ TEST_F(Drawings, InOrderAreOneWhereAllEndsAreKnownBefore) {
     EXPECT_GT(renderer().stats().check.errors_of_promise.size(), 1U)
         << "a plan that does not know them, " << tolerance;
   }
+}
+
+TEST_F(Drawings, AreOneWhereAPartIsTried) {
+  const Frame frame = many_in_a_small_place(0.01);
+  EXPECT_EQ(drawings_of(frame), 1U);
+  FramePlan untried = Renderer::first_plan(frame, {});
+  EXPECT_FALSE(untried.tried_parts.empty());
+  untried.tried_parts.clear();
+  renderer().render(frame, untried);
+  EXPECT_GT(renderer().stats().check.errors_of_promise.size(), 1U) << "a plan that tries nothing";
 }
 
 // Splats above white stay on the picture's own grid up to a larger width than others, or on finer
