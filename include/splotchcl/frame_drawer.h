@@ -81,6 +81,9 @@ class FrameDrawer {
   // Of a device that opens later: throws what was wrong with it, if that is known by now.
   void check_device() const;
 
+  // Which light pictures hold from now on.
+  void keep(PictureLight light);
+
   // Throws as load_frame and Renderer::render do.
   DrawnFrame draw(const Scene& scene, const Snapshot& snapshot);
   // For the frames of a film, which keep what other scenes they fade to.

@@ -216,4 +216,11 @@ void OpenComponents::begin_load() {
   }
 }
 
+void require_chosen_components(const Scene& scene) {
+  if (!scene.look || !scene.components.empty()) return;
+  throw UsageError(
+      "key look: found it in a scene whose components are still to be chosen, expected them in the "
+      "scene; splotchcl render FILE --explain writes them out");
+}
+
 }  // namespace splotchcl

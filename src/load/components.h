@@ -80,4 +80,8 @@ class OpenComponents {
   std::list<ComponentFields> fields_;
 };
 
+// Throws UsageError for a scene that leaves its components to a look, which only opening it with
+// its snapshot chooses (open_scene).
+void require_chosen_components(const Scene& scene);
+
 }  // namespace splotchcl

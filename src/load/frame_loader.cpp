@@ -174,6 +174,7 @@ FrameLoader::FrameLoader(const Scene& scene, const Snapshot& snapshot,
   if (scene.components.empty()) {
     throw UsageError("the scene has no component, expected at least one; add a [[component]]");
   }
+  require_chosen_components(scene);
   check_finish(scene, snapshot.info());
   note_small_tolerance(scene.tolerance, notes);
   if (scene.periodic.wrap) periodic_box_ = periodic_box(scene.periodic, snapshot.info());

@@ -99,6 +99,7 @@ Frame load_frame(const Scene& scene, const Snapshot& snapshot, std::vector<std::
 }
 
 void check_load(const Scene& scene, const Snapshot& snapshot) {
+  require_chosen_components(scene);
   check_finish(scene, snapshot.info());
   std::vector<std::string> ignored;
   OpenComponents(scene, snapshot, missing_sizes(scene, {}), ignored);

@@ -188,6 +188,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
   SceneWithSnapshot result;
   if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
+    refuse_look(result.scene, path);
     result.snapshot = SnapshotSource().at(result.scene);
   } else if (lower_ending(path) == ".toml" || (is_text_without_format(path) && has_keys(path))) {
     result = open_scene_file(path, settings, ranks);

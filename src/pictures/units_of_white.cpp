@@ -26,9 +26,9 @@ double brightest_part(const Frame& frame) {
   return brightest;
 }
 
-// The power of two that counts errors often enough.
+// The power of two that counts errors almost often enough; a finer tolerance does the rest.
 double power_for(const Frame& frame, double gain) {
-  double factor = std::exp2(std::ceil(std::log2(gain)));
+  double factor = std::exp2(std::floor(std::log2(gain)));
   while (factor > 1 && factor * brightest_part(frame) > most_light)
     factor /= 2;
   return factor;
@@ -44,7 +44,7 @@ bool has_gray_absorption(const Frame& frame) {
 
 void brighten(DrawnComponent& component, double factor) {
   Absorption& absorption = component.absorption;
-  if (component.brightness == 0) return;
+  if (component.brightness == 0 || factor == 1) return;
   if (absorption.kind == Absorption::Kind::as_emission)
     absorption = {Absorption::Kind::factor, component.brightness};
   component.brightness *= factor;
@@ -90,13 +90,10 @@ DrawFrame with_errors_counted(const DrawFrame& draw, double gain) {
   if (!(gain > 1)) return draw;
   return [draw, gain](const Frame& frame) {
     if (frame.tolerance == 0) return draw(frame);  // it is as exact as it can be
-    if (has_gray_absorption(frame)) {
-      Frame finer = frame;
-      finer.tolerance /= gain;
-      return draw(finer);
-    }
-    const double factor = power_for(frame, gain);
-    Image image = draw(brighter(frame, factor));
+    const double factor = has_gray_absorption(frame) ? 1 : power_for(frame, gain);
+    Frame counted = brighter(frame, factor);
+    counted.tolerance *= factor / gain;
+    Image image = draw(counted);
     multiply_light(image, 1 / factor);
     return image;
   };

@@ -279,7 +279,7 @@ std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SavePi
       check_picture(question.path, question.may_replace, scene.drawn,
                     {drawer_.opened(), scene.all, *drawer_.snapshot_of(scene.drawn)});
   if (result == SaveResult::saved) {
-    const DrawnFrame drawn = drawer_.draw(scene.drawn);
+    const DrawnFrame drawn = drawer_.draw(scene.drawn, light_of_file(question.path));
     write_pictures(question.path, drawn.pictures, image_file_options(scene.drawn));
   }
   return save_answer(id, result, std::filesystem::absolute(question.path).string());

@@ -113,7 +113,6 @@ class Seconds {
 FrameDrawerOptions drawer_options(const ViewDrawer::Options& options) {
   FrameDrawerOptions result;
   result.device = options.device;
-  result.light = PictureLight::both;  // a picture may be saved as floats
   result.shape = options.shape;
   result.progress = [go_on = options.go_on](const std::string&, double) {
     if (go_on && !go_on()) throw DrawingCancelled();
@@ -177,6 +176,7 @@ ViewPicture ViewDrawer::preview(const Scene& scene, const PreviewLevel& level) {
   smaller.image.height = std::max(1, scene.image.height / level.divisor);
   smaller.tolerance = std::max(scene.tolerance, preview_tolerance);
   const Frame frame = sample(smaller, level.particles);
+  drawer_.keep(PictureLight::shown);
   const DrawnFrame drawn = drawer_.draw(smaller, frame, snapshot_of(smaller)->info());
   ViewPicture picture = stored(smaller, drawn, true);
   picture.seconds = seconds.passed();
@@ -190,7 +190,8 @@ ViewPicture ViewDrawer::exact(const Scene& scene) {
   return picture;
 }
 
-DrawnFrame ViewDrawer::draw(const Scene& scene) {
+DrawnFrame ViewDrawer::draw(const Scene& scene, PictureLight light) {
+  drawer_.keep(light);
   return drawer_.draw(scene, load(scene), snapshot_of(scene)->info());
 }
 

@@ -57,7 +57,7 @@ class ViewDrawer {
   ViewPicture preview(const Scene& scene, const PreviewLevel& level);
   ViewPicture exact(const Scene& scene);
   // As splotchcl render draws it.
-  DrawnFrame draw(const Scene& scene);
+  DrawnFrame draw(const Scene& scene, PictureLight light = PictureLight::shown);
 
   // All particles of the scene, and at most about so many of them.
   Frame load(const Scene& scene) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "snapshot/memory_snapshot.h"
+#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/picture.h"
@@ -146,6 +147,15 @@ TEST(PressLook, LeavesDarknessToTheLight) {
   EXPECT_LT(lightness_ratio("spiral"), 3);
   EXPECT_LT(lightness_ratio("starlight"), 3);
   EXPECT_GT(lightness_ratio("hot_gas"), 3);
+}
+
+TEST(Looks, AreNotDrawnBeforeTheyHaveChosenComponents) {
+  const MemorySnapshot snapshot = universe(1);
+  Scene scene;
+  scene.look = Look::press;
+  std::vector<std::string> notes;
+  EXPECT_THROW(load_frame(scene, snapshot, notes), UsageError);
+  EXPECT_THROW(check_load(scene, snapshot), UsageError);
 }
 
 }  // namespace

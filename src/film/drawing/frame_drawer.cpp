@@ -291,6 +291,10 @@ void FrameDrawer::check_device() const {
   if (state_->renderer.valid() && state_->is_open()) state_->renderer.get();
 }
 
+void FrameDrawer::keep(PictureLight light) {
+  state_->light = light;
+}
+
 DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot) {
   OtherScenes none_kept;
   return draw(scene, snapshot, none_kept);
