@@ -119,8 +119,12 @@ WeightedValues::ValueSums WeightedValues::draw_values(const OfValue& of_value,
     factors[3 * i + (value > 0 ? above : below)] =
         static_cast<float>(std::min(std::abs(value), most));
   }
+  // Beside the largest of values whose range is very large the weights would have no digits left.
+  const bool is_floor_raised =
+      least_floor(placed_.size, weight_, factors, picture.kernel_width) > floor_;
   drawn.sums =
       draw_sums(placed_, placed_.size, {weight_, std::move(factors), floor_}, picture, draw);
+  if (is_floor_raised) drawn.sums[denominator] = draw_weights(picture, draw)[denominator];
   return drawn;
 }
 

@@ -18,6 +18,11 @@ struct TrialClass {
   std::vector<double> tolerances;
   std::function<Trial(test::Random&)> start;  // a random one, of any light and tolerance
 };
+std::vector<TrialClass> cloud_classes();   // where clouds lie, and how many
+std::vector<TrialClass> light_classes();   // what they shine and absorb
+std::vector<TrialClass> view_classes();    // how they are seen
+std::vector<TrialClass> course_classes();  // between two snapshots
+std::vector<TrialClass> map_classes();     // as values of a map
 const std::vector<TrialClass>& all_classes();
 
 // A start with the light, the tolerance and the shape of compositing that this seed chooses: all

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "adversary/map_judge.h"
 #include "adversary/trial_frame.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/reference.h"
@@ -76,6 +77,7 @@ void compare(const Image& image, const ReferenceImage& exact, const std::vector<
 }  // namespace
 
 Measurement Judge::measure(const Trial& trial) {
+  if (trial.map != MapKind::none) return measure_map(trial, renderer(trial.shape, false));
   const Frame frame = make_frame(trial);
   const Frame merged = make_merged_frame(trial);
   Renderer& renderer = this->renderer(trial.shape, trial.certify > 0);

@@ -63,7 +63,10 @@ Options short_options() {
                    "tinted_matter",
                    "many_colors",
                    "clouds_around",
-                   "certified"};
+                   "certified",
+                   "between_snapshots",
+                   "map_mean",
+                   "map_dispersion"};
   options.last_seed = 2;
   return options;
 }

@@ -33,6 +33,11 @@ constexpr Names<Projection, 5> projections = {{{Projection::perspective, "perspe
                                                {Projection::fisheye, "fisheye"},
                                                {Projection::equirectangular, "equirectangular"},
                                                {Projection::cube, "cube"}}};
+constexpr Names<MapKind, 5> maps = {{{MapKind::none, "none"},
+                                     {MapKind::column, "column"},
+                                     {MapKind::mean, "mean"},
+                                     {MapKind::dispersion, "dispersion"},
+                                     {MapKind::integral, "integral"}}};
 constexpr Names<Sampling, 2> samplings = {{{Sampling::mean, "mean"}, {Sampling::center, "center"}}};
 constexpr Names<CompositeShape, 2> shapes = {
     {{CompositeShape::rows, "rows"}, {CompositeShape::groups, "groups"}}};
@@ -80,6 +85,7 @@ bool take_choice_of_trial(Trial& trial, const std::string& key, const std::strin
   if (key == "class") return trial.kind = word, true;
   if (key == "light") return take_choice(lights, word, trial.light);
   if (key == "projection") return take_choice(projections, word, trial.projection);
+  if (key == "map") return take_choice(maps, word, trial.map);
   if (key == "sampling") return take_choice(samplings, word, trial.sampling);
   if (key == "shape") return take_choice(shapes, word, trial.shape);
   return false;
@@ -121,6 +127,16 @@ const std::vector<Gene<Trial>>& trial_genes() {
       {"own_colors", &Trial::own_colors, Scale::fixed, 0, 1},
       {"around", &Trial::around, Scale::fixed, 0, 1},
       {"certify", &Trial::certify, Scale::fixed, 0, 1},
+      {"dome", &Trial::dome, Scale::fixed, 0, 1},
+      {"original", &Trial::original, Scale::fixed, 0, 1},
+      {"inset", &Trial::inset, Scale::logarithmic, 1e-4, 1},
+      {"between", &Trial::between, Scale::logarithmic, 0.01, 0.99},
+      {"motion", &Trial::motion, Scale::logarithmic, 0.01, 1e4},
+      {"box", &Trial::box, Scale::logarithmic, 100, 1e4},
+      {"slice", &Trial::slice, Scale::fixed, 0, 1},
+      {"signs", &Trial::signs, Scale::fixed, 0, 1},
+      {"value_decades", &Trial::value_decades, Scale::logarithmic, 0.1, 60},
+      {"map_floor", &Trial::map_floor, Scale::logarithmic, 1e-9, 0.1},
       {"filler", &Trial::filler, Scale::fixed, 0, 0},
       {"period", &Trial::period, Scale::fixed, 0, 0},
       {"offset", &Trial::offset, Scale::fixed, 0, 0},
@@ -169,8 +185,9 @@ std::string text_of(const Trial& trial) {
   std::ostringstream out;
   out << std::setprecision(digits);
   out << "class " << trial.kind << "\nlight " << name(trial.light) << "\nprojection "
-      << name_in(projections, trial.projection) << "\nsampling "
-      << name_in(samplings, trial.sampling) << "\nshape " << name(trial.shape) << "\n";
+      << name_in(projections, trial.projection) << "\nmap " << name_in(maps, trial.map)
+      << "\nsampling " << name_in(samplings, trial.sampling) << "\nshape " << name(trial.shape)
+      << "\n";
   print_numbers(trial, trial_genes(), "", out);
   for (const CloudGroup& group : trial.groups) {
     out << "group " << name(group.arrangement) << "\n";

@@ -37,6 +37,9 @@ enum class Light {
   two_sources,      // groups with `star` have an E / A of their own
 };
 
+// As what kind of map a trial is drawn, if as one (docs/maps.md).
+enum class MapKind { none, column, mean, dispersion, integral };
+
 struct CloudGroup {
   Arrangement arrangement = Arrangement::point;
   double places = 1;       // of the arrangement
@@ -59,6 +62,7 @@ struct Trial {
   Light light = Light::emission;
   Projection projection = Projection::orthographic;
   Sampling sampling = Sampling::mean;
+  MapKind map = MapKind::none;
   CompositeShape shape = CompositeShape::rows;
   double tolerance = 1e-3;
   double width = 64, height = 48;  // of what is drawn
@@ -78,6 +82,16 @@ struct Trial {
   double own_colors = 0;           // 1: particles have colors of their own
   double around = 0;               // 1: the camera sees through clouds around it
   double certify = 0;              // 1: the picture's error is to have a bound
+  double dome = 0;                 // 1: a fisheye of half of all directions and more
+  double original = 0;             // 1: pixels lie as the original program's
+  double inset = 0;                // a part of the field of view, around a cloud; 0: all of it
+  double between = 0;              // so far on the way between two snapshots; 0: in one
+  double motion = 0;               // pixels that clouds move between them
+  double box = 0;                  // side of the periodic box, in pixels; 0: none
+  double slice = 0;                // 1: a map of the plane through the middle
+  double signs = 0;                // 1: every other group's value is below 0
+  double value_decades = 0;        // of a map's values, from hue 0 to 1
+  double map_floor = 1e-3;         // of the mean
   double filler = 0;               // faint particles that lie outside, as most of a file may
   double period = 0;  // the groups' clouds are each so-many-th of the file; 0: the first ones
   double offset = 0;  // from this place in the file on

@@ -4,9 +4,13 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstddef>
+#include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "adversary/places.h"
+#include "between/interpolation.h"
 #include "device/scenes.h"
 #include "scene/projection.h"
 
@@ -14,26 +18,6 @@ namespace splotchcl::adversary {
 namespace {
 
 using namespace boost::qvm;
-
-using test::Random;
-
-// A place of a group, in pixels of the whole picture, and what each of its clouds is like.
-struct Place {
-  double x = 0, y = 0, sigma = 1, depth = 1;
-  int copies = 1;
-  const CloudGroup* group = nullptr;
-};
-
-int whole(double value) {
-  return static_cast<int>(std::lround(value));
-}
-
-Rectangle crop_of(const Trial& trial) {
-  const int width = whole(trial.width), height = whole(trial.height);
-  const int beside_x = std::max(whole(trial.picture_size) - width, 0);
-  const int beside_y = std::max(whole(trial.picture_size) - height, 0);
-  return {whole(trial.crop_x * beside_x), whole(trial.crop_y * beside_y), width, height};
-}
 
 // A camera at the origin that looks along z, x to the right and y downwards, or along no axis.
 Frame empty_frame_of(const Trial& trial) {
@@ -59,14 +43,18 @@ Frame empty_frame_of(const Trial& trial) {
     case Projection::cube:
       frame.camera.focal_pixels = 0.5 * frame.width;
       break;
-    case Projection::fisheye:
-      frame.camera.focal_pixels = 0.5 * std::min(frame.width, frame.height) / half_view;
+    case Projection::fisheye: {
+      // From half of all directions to nearly all.
+      const double half_angle = trial.dome > 0 ? 0.5 * pi + half_view : half_view;
+      frame.camera.focal_pixels = 0.5 * std::min(frame.width, frame.height) / half_angle;
       break;
+    }
     case Projection::equirectangular:
       frame.camera.focal_pixels = frame.width / (2 * pi);
       break;
   }
   frame.camera.pixels_per_length = frame.camera.focal_pixels;
+  if (trial.original > 0) frame.camera = in_original_convention(frame.camera);
   frame.background.fill(trial.background);
   frame.tolerance = trial.tolerance;
   frame.through_clouds = trial.around > 0;
@@ -75,6 +63,13 @@ Frame empty_frame_of(const Trial& trial) {
   if (trial.cut > 0) frame.kernel.cut = trial.cut;
   frame.kernel.min_radius_pixels = trial.min_radius;
   return frame;
+}
+
+// The length of a pixel of the usual depth.
+double pixel_of(const Trial& trial) {
+  const Frame frame = empty_frame_of(trial);
+  const double depth = frame.projection == Projection::orthographic ? 1 : 10;
+  return depth / frame.camera.focal_pixels;
 }
 
 // Where a particle lies, along the camera's axes, that is seen at this place of the picture.
@@ -98,118 +93,6 @@ Vec3 in_camera(double x, double y, double depth, const Frame& frame) {
   const double latitude = std::clamp(down, -0.499 * pi, 0.499 * pi);
   return {{depth * std::cos(latitude) * std::sin(right), depth * std::sin(latitude),
            depth * std::cos(latitude) * std::cos(right)}};
-}
-
-// The side of the square cells, two sizes for each factor of two, that the search for crowds
-// collects clouds of this width in.
-double side_of_cell(double sigma) {
-  return std::exp2(0.5 * std::floor(2 * std::log2(std::max(sigma, 1.0))));
-}
-
-// Where a group's places lie, from its middle, in pixels.
-class Layout {
- public:
-  Layout(const CloudGroup& group, const Trial& trial, Random& random)
-      : group_(group), trial_(trial), random_(random) {}
-
-  int count() const {
-    const int places = std::max(whole(group_.places), 1);
-    switch (group_.arrangement) {
-      case Arrangement::corner:
-        return 4;
-      case Arrangement::lattice:
-        return side() * side();
-      case Arrangement::sheet:
-        return columns() * rows();
-      default:
-        return places;
-    }
-  }
-
-  std::pair<double, double> place(int i, double sigma) {
-    const int count = this->count();
-    switch (group_.arrangement) {
-      case Arrangement::point:
-        return {0, 0};
-      case Arrangement::ring: {
-        const double angle = 2 * pi * (i + 0.25) / count, radius = group_.spread * sigma;
-        return {radius * std::cos(angle), radius * std::sin(angle)};
-      }
-      case Arrangement::line:
-        return {group_.spread * group_.sigma * (i - 0.5 * (count - 1)), 0};
-      case Arrangement::lattice:
-        return in_grid(i, side(), side());
-      case Arrangement::sheet:
-        return in_grid(i, columns(), rows());
-      case Arrangement::corner:
-        return {i % 2 == 0 ? -0.01 : 0.01, i < 2 ? -0.01 : 0.01};
-      case Arrangement::scatter:
-        return {random_.uniform(-0.6, 0.6) * trial_.width,
-                random_.uniform(-0.6, 0.6) * trial_.height};
-    }
-    return {0, 0};
-  }
-
- private:
-  int side() const {
-    return std::max(1, static_cast<int>(std::sqrt(std::max(group_.places, 1.0))));
-  }
-  // A sheet reaches three sigma beyond the picture on each side, with not more clouds than are
-  // drawn soon.
-  double extent(double pixels) const { return pixels + 6 * group_.sigma; }
-  double spacing() const {
-    const double spacing = std::max(group_.spread * group_.sigma, 0.2);
-    if (group_.arrangement != Arrangement::sheet) return spacing;
-    constexpr double most_in_a_row = 60;
-    return std::max(spacing, extent(std::max(trial_.width, trial_.height)) / most_in_a_row);
-  }
-  int across(double pixels) const { return std::max(whole(extent(pixels) / spacing()), 1); }
-  int columns() const { return across(trial_.width); }
-  int rows() const { return across(trial_.height); }
-  std::pair<double, double> in_grid(int i, int columns, int rows) const {
-    return {spacing() * (i % columns - 0.5 * (columns - 1)),
-            spacing() * (i / columns - 0.5 * (rows - 1))};
-  }
-
-  const CloudGroup& group_;
-  const Trial& trial_;
-  Random& random_;
-};
-
-void add_places(const CloudGroup& group, const Trial& trial, std::uint64_t seed,
-                std::vector<Place>& places) {
-  Random random(seed);
-  const Rectangle crop = crop_of(trial);
-  double middle_x = crop.x + 0.5 * crop.width + group.x;
-  double middle_y = crop.y + 0.5 * crop.height + group.y;
-  if (group.arrangement == Arrangement::corner) {
-    const double side = side_of_cell(group.sigma);
-    middle_x = std::round(middle_x / side) * side;
-    middle_y = std::round(middle_y / side) * side;
-  }
-  Layout layout(group, trial, random);
-  const int count = layout.count();
-  for (int i = 0; i < count; ++i) {
-    Place place;
-    const double part = count > 1 ? static_cast<double>(i) / (count - 1) : 0;
-    place.sigma = group.sigma * std::pow(group.width_range, part);
-    const auto [x, y] = layout.place(i, place.sigma);
-    const double jitter = group.jitter * place.sigma;
-    place.x = middle_x + x + jitter * random.uniform(-1, 1);
-    place.y = middle_y + y + jitter * random.uniform(-1, 1);
-    place.depth = group.depth * random.uniform(1, 1.2);
-    place.copies = std::max(whole(group.copies), 1);
-    place.group = &group;
-    places.push_back(place);
-  }
-}
-
-std::vector<Place> places_of(const Trial& trial) {
-  std::vector<Place> places;
-  std::uint64_t seed = 100 * static_cast<std::uint64_t>(std::max(trial.jitter_seed, 0.0));
-  for (const CloudGroup& group : trial.groups)
-    add_places(group, trial, ++seed, places);
-  return places;
 }
 
 struct ParticleArrays {
@@ -266,12 +149,67 @@ Palette palette_of(const Trial& trial) {
   return palette;
 }
 
+// Where a particle goes between two snapshots follows from where it is: copies stay together.
+Vec3 way_of(const float* position, double length) {
+  const double number = std::fmod(
+      1e3 * std::abs(static_cast<double>(position[0] + 2 * position[1] + 3 * position[2])), 1.0);
+  const double angle = 2 * pi * number;
+  return {{length * std::cos(angle), length * std::sin(angle), 0.3 * length * std::sin(3 * angle)}};
+}
+
+std::shared_ptr<const IdMatch> same_particles(std::size_t count) {
+  IdMatch match;
+  match.place_in_second.resize(count);
+  std::iota(match.place_in_second.begin(), match.place_in_second.end(), 0U);
+  match.in_common = count;
+  return std::make_shared<const IdMatch>(std::move(match));
+}
+
+// At the trial's part of the way particles are where, and as wide as, the others have them.
+void put_between_snapshots(const Trial& trial, ParticleArrays& arrays, Particles& particles) {
+  constexpr double growth = 3;  // of a width, from one snapshot to the other
+  const double f = trial.between;
+  ColumnBetween places, widths;
+  places.match = widths.match = same_particles(arrays.h.size());
+  places.fraction = widths.fraction = static_cast<float>(f);
+  std::vector<float> first = arrays.position, second = arrays.position;
+  for (std::size_t i = 0; i < arrays.h.size(); ++i) {
+    const Vec3 way = way_of(&arrays.position[3 * i], trial.motion * pixel_of(trial));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      first[3 * i + axis] -= static_cast<float>(f * way.a[axis]);
+      second[3 * i + axis] += static_cast<float>((1 - f) * way.a[axis]);
+    }
+  }
+  places.kind = ColumnBetween::Kind::position;
+  places.values_per_particle = 3;
+  places.first = Column::owning(std::move(first));
+  places.second = Column::owning(std::move(second));
+  PathSetting setting;
+  const double side = trial.box * pixel_of(trial);
+  if (side > 0) setting.period = PeriodicRange{-0.5 * side, side};
+  places.path = make_path_numbers(setting, f);
+  widths.kind = ColumnBetween::Kind::logarithmic;
+  std::vector<float> narrow, wide;
+  for (const float h : arrays.h) {
+    narrow.push_back(h * static_cast<float>(std::pow(growth, -f)));
+    wide.push_back(h * static_cast<float>(std::pow(growth, 1 - f)));
+  }
+  widths.first = Column::owning(std::move(narrow));
+  widths.second = Column::owning(std::move(wide));
+  particles.position = column_between(std::move(places));
+  particles.smoothing_length = column_between(std::move(widths));
+}
+
 DrawnComponent component_of(const Trial& trial, ParticleArrays arrays) {
   DrawnComponent component;
   if (trial.decades > 0) component.color = {Scaling::log, 0, trial.decades};
   component.particles.count = arrays.h.size();
-  component.particles.position = Column::owning(std::move(arrays.position));
-  component.particles.smoothing_length = Column::owning(std::move(arrays.h));
+  if (trial.between > 0 && !arrays.h.empty()) {
+    put_between_snapshots(trial, arrays, component.particles);
+  } else {
+    component.particles.position = Column::owning(std::move(arrays.position));
+    component.particles.smoothing_length = Column::owning(std::move(arrays.h));
+  }
   component.particles.weight = Column::owning(std::move(arrays.mass));
   component.particles.color = Column::owning(std::move(arrays.color));
   if (arrays.own_colors)
@@ -319,7 +257,23 @@ double distinct_source(const Trial& trial) {
   return trial.star_source == trial.source ? 2 * trial.source : trial.star_source;
 }
 
-Frame with_components(const Trial& trial, Frame frame, ParticleArrays gas, ParticleArrays stars) {
+// As an inset's: on a cloud of the picture, in a part of its field of view.
+CameraFrame inset_camera(const Trial& trial, const Frame& frame) {
+  const auto seen =
+      std::find_if(frame.components.begin(), frame.components.end(),
+                   [](const DrawnComponent& component) { return component.particles.count > 0; });
+  if (seen == frame.components.end()) return frame.camera;
+  const Column& position = seen->particles.position;
+  Camera camera;
+  camera.projection = Projection::perspective;
+  camera.look_at = {{static_cast<double>(position[0]), static_cast<double>(position[1]),
+                     static_cast<double>(position[2])}};
+  camera.sky = {{0.1, -1, 0.2}};
+  camera.field_of_view_degrees = trial.inset * trial.field_of_view;
+  return make_camera_frame(camera, frame.width, frame.height);
+}
+
+Frame with_light(const Trial& trial, Frame frame, ParticleArrays gas, ParticleArrays stars) {
   frame.components = {component_of(trial, std::move(gas))};
   choose_light(trial, frame.components.front());
   if (trial.light != Light::stars_among_gas && trial.light != Light::two_sources) return frame;
@@ -328,6 +282,15 @@ Frame with_components(const Trial& trial, Frame frame, ParticleArrays gas, Parti
   of_stars.kind = Absorption::Kind::none;
   if (trial.light == Light::two_sources)
     of_stars = {Absorption::Kind::factor, 1 / distinct_source(trial)};
+  return frame;
+}
+
+Frame with_components(const Trial& trial, Frame frame, ParticleArrays gas, ParticleArrays stars) {
+  frame = with_light(trial, std::move(frame), std::move(gas), std::move(stars));
+  if (trial.inset > 0) {
+    frame.camera = inset_camera(trial, frame);
+    frame.projection = Projection::perspective;
+  }
   return frame;
 }
 

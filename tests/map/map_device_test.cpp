@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "map/gas.h"
+#include "scene/constants.h"
 #include "splotchcl/map.h"
 
 namespace splotchcl {
@@ -65,6 +66,32 @@ TEST_F(MapOnTheDevice, KeepsTheMassOfAllSizesAtToleranceZero) {
     scene.tolerance = 1e-3;
     EXPECT_NEAR(mass_in_map(scene, gas) / mass, 1, 1e-3) << h;
   }
+}
+
+// Next to nothing of what makes values differ lies in the map, so that they have a large range.
+TEST_F(MapOnTheDevice, KnowsDispersionsWhereWeightsReachTheFloorWhateverTheValues) {
+  const auto h_of = [](double sigma) { return static_cast<float>(sigma / sigma_of_h); };
+  const auto mass_of = [](double sigma) { return static_cast<float>(pi * sigma * sigma); };
+  Gas gas;
+  gas.add({{40, 0, 0}}, h_of(20), mass_of(20), 0.6F);
+  gas.add({{70, -50, 0}}, h_of(7), mass_of(7), 0.1F);
+  Scene scene = map_scene();
+  scene.tolerance = 1e-4;
+  Scene exact = scene;
+  exact.tolerance = 0;
+  const Map columns = map(exact, gas.snapshot());
+  scene.map.quantity = "temperature";
+  scene.map.statistic = MapStatistic::dispersion;
+  const Map dispersions = map(scene, gas.snapshot());
+  int known = 0;
+  for (std::size_t i = 0; i < columns.values.size(); ++i) {
+    const double of_floor = static_cast<double>(columns.values[i]) / dispersions.floor;
+    if (std::abs(of_floor - 1) < 2 * scene.tolerance) continue;
+    EXPECT_EQ(std::isnan(dispersions.values[i]), of_floor < 1) << i << " " << of_floor;
+    known += of_floor >= 1;
+  }
+  EXPECT_GT(known, 1000);
+  EXPECT_LT(known, 2500) << "some must lie below the floor";
 }
 
 // Few wide kernels on coarse grids, which ring around them.
