@@ -23,7 +23,7 @@ LIGHTS = ("emission", "proportional", "gray", "apart", "stars")
 
 def run(*command):
     done = subprocess.run([str(part) for part in command], capture_output=True, text=True)
-    if done.returncode > 1:
+    if done.returncode:
         sys.exit(f"{' '.join(map(str, command))}\n{done.stderr}")
     return done
 
