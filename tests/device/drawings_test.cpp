@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
 #include "device/pictures.h"
 #include "device/stages.h"
+#include "scene/constants.h"
 #include "splotchcl/reference.h"
 
 namespace splotchcl::test {
@@ -91,6 +93,32 @@ class Drawings : public PictureTest {
     return frame;
   }
 
+  // Haloes of all sizes, denser and of narrower clouds towards their middles, more than are all
+  // looked at before they are drawn; brightness over four decades, and any kind of absorption.
+  static Frame random_haloes(std::uint64_t seed) {
+    Random random(seed);
+    std::vector<Cloud> clouds;
+    while (clouds.size() < 70000) {
+      const double x = random.uniform(-120, 120), y = random.uniform(-90, 90);
+      const double size = random.logarithmic(2, 60);
+      for (double left = random.logarithmic(100, 20000); left > 0; --left) {
+        const double r = size * std::pow(random.uniform(), 2), angle = random.uniform(0, 2 * pi);
+        clouds.push_back({x + r * std::cos(angle), y + r * std::sin(angle), random.uniform(1, 100),
+                          0.1 * size + 0.3 * r, 1});
+      }
+    }
+    const double column = random.logarithmic(1e-3, 10);
+    for (Cloud& cloud : clouds)
+      cloud.column = column / cloud.sigma;
+    Frame frame = frame_of(240, 180, {component_of(clouds, two_colors())});
+    frame.tolerance = random.logarithmic(1e-4, 1e-2);
+    Absorption& absorption = frame.components[0].absorption;
+    const double kind = random.uniform(0, 6);
+    if (kind < 1) absorption.kind = Absorption::Kind::none;
+    if (kind >= 2) absorption = {Absorption::Kind::gray, random.logarithmic(0.03, 10)};
+    return frame;
+  }
+
   // How many of the pixels from the first column on differ, and of those before it.
   static std::pair<int, int> differences(const Image& a, const Image& b, int first) {
     int beyond = 0, before = 0;
@@ -126,6 +154,18 @@ TEST_F(Drawings, AreOneWhereAPartIsTried) {
   untried.tried_parts.clear();
   renderer().render(frame, untried);
   EXPECT_GT(renderer().stats().check.errors_of_promise.size(), 1U) << "a plan that tries nothing";
+}
+
+TEST_F(Drawings, AreOneOfMostRandomHaloes) {
+  constexpr std::uint64_t frames = 20;
+  std::uint64_t drawn_once = 0;
+  for (std::uint64_t seed = 1; seed <= frames; ++seed) {
+    Frame frame = random_haloes(seed);
+    drawn_once += drawings_of(frame) == 1;
+    frame.crop = {110, 80, 12, 12};
+    EXPECT_LE(largest_error(draw(frame), reference::render(frame)), frame.tolerance) << seed;
+  }
+  EXPECT_GE(drawn_once, frames * 9 / 10);
 }
 
 // Splats above white stay on the picture's own grid up to a larger width than others, or on finer
