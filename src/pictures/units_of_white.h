@@ -11,9 +11,9 @@
 namespace splotchcl {
 
 // By how much errors of light are larger where they are shown, at most: 2^exposure times the
-// steepest slopes of tone, saturation and contrast; at least 1, at most 2^30. Of a contrast below 1,
-// which is infinitely steep in the dark, and the balance of white nothing is counted. Exposure and
-// white are known.
+// steepest slopes of tone, saturation and contrast; at least 1, at most 2^30. Of a contrast below
+// 1, which is infinitely steep in the dark, and the balance of white nothing is counted. Exposure
+// and white are known.
 double display_gain(const FinishSettings& finish, double gamma);
 
 // Draws frames so that errors count `gain` times, or more.
