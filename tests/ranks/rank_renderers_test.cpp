@@ -67,10 +67,28 @@ TEST(RankRenderers, HaveThePictureEverywhere) {
 
 TEST(RankRenderers, DrawAgainTogether) {
   Frame frame = crowd(1e-5, {Absorption::Kind::gray, 0.2});
-  // Far brighter than a plan expects.
+  // Far brighter than a plan expects that tries nothing.
   for (DrawnComponent& component : frame.components)
     component.brightness *= 1000;
-  EXPECT_GT(render_alone(frame).stats.check.errors_of_promise.size(), 1u);
+  const FramePlan plan = make_plan(frame);
+  Renderer alone;
+  const Image image = alone.render(frame, plan);
+  const std::vector<double> errors = alone.stats().check.errors_of_promise;
+  EXPECT_GT(errors.size(), 1u);
+  ThreadRanks::run(2, [&](Communicator& all) {
+    RendererOptions options;
+    options.ranks = std::shared_ptr<Communicator>(std::shared_ptr<Communicator>(), &all);
+    Renderer renderer(options);
+    EXPECT_EQ(renderer.render(frame, plan).pixels, image.pixels);
+    EXPECT_EQ(renderer.stats().check.errors_of_promise, errors);
+  });
+}
+
+TEST(RankRenderers, TryPartsTogether) {
+  Frame frame = crowd(1e-5, {Absorption::Kind::gray, 0.2});
+  for (DrawnComponent& component : frame.components)
+    component.brightness *= 1000;
+  ASSERT_FALSE(Renderer::first_plan(frame, {}).tried_parts.empty());
   expect_same(frame);
 }
 
