@@ -577,18 +577,10 @@ class TreeBuilder {
 
   void store_fields(const Member& node, LevelArrays& arrays) const {
     for (std::size_t f = 0; f < source_.fields.size(); ++f) {
-      std::array<std::uint16_t, sampled_members> values{};
+      std::array<float, sampled_members> values{};
       for (std::size_t k = 0; k < sampled_members; ++k)
-        values[k] = ordered_value(node.samples.samples[k].values[f]);
-      SampledField field;
-      field.lowest = *std::min_element(values.begin(), values.end());
-      field.highest = *std::max_element(values.begin(), values.end());
-      const unsigned span = std::max(1U, static_cast<unsigned>(field.highest) - field.lowest);
-      for (std::size_t k = 0; k < sampled_members; ++k) {
-        const unsigned above = static_cast<unsigned>(values[k]) - field.lowest;
-        field.members[k] = static_cast<std::uint8_t>((255 * above + span / 2) / span);
-      }
-      arrays.fields.push_back(field);
+        values[k] = node.samples.samples[k].values[f];
+      arrays.fields.push_back(SampledField::of(values.data()));
     }
   }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 // What the bytes of nodes mean. Lengths that are stored as 0 are 0.
@@ -49,23 +48,6 @@ inline std::uint8_t wide_bits(double h) {
 inline double smoothing_of_bits(std::uint8_t bits) {
   static const auto lengths = table_of<256>([](int b) { return std::exp2(b / 4.0 - 48); });
   return lengths[bits];
-}
-
-// The upper half of a float, turned so that whole numbers have the order of the values: seven bits
-// of its mantissa.
-inline std::uint16_t ordered_value(float value) {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  bits = (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
-  const std::uint32_t rounded = bits > 0xffff7fffU ? bits : bits + 0x8000U;
-  return static_cast<std::uint16_t>(rounded >> 16);
-}
-inline float value_of_ordered(std::uint16_t ordered) {
-  std::uint32_t bits = static_cast<std::uint32_t>(ordered) << 16;
-  bits = (bits & 0x80000000U) != 0 ? bits & 0x7fffffffU : ~bits;
-  float value = 0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
 }
 
 }  // namespace splotchcl

@@ -9,6 +9,7 @@
 
 #include "splotchcl/scene.h"
 #include "splotchcl/vector.h"
+#include "tree/sampled_field.h"
 
 namespace splotchcl {
 
@@ -25,15 +26,6 @@ struct TreeNode {
   float flux = 0;                                  // sum of masses, of h, or of density times h^3
 };
 static_assert(sizeof(TreeNode) == 20);
-
-// A field's values of eight members that stand for all: each for an eighth of the flux.
-struct SampledField {
-  std::uint16_t lowest = 0, highest = 0;  // of the eight (ordered_value())
-  std::uint8_t members[8] = {};           // from one to the other
-};
-static_assert(sizeof(SampledField) == 12);
-constexpr std::size_t sampled_members = 8;
-constexpr std::size_t most_fields = 4;
 
 // Nodes of one level in Morton order. Particles of a node that lie in none of the next level are
 // loose: they follow each other in the tree's `order`.

@@ -15,10 +15,10 @@
 #include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
 #include "scene/projection.h"
-#include "scene/scalar_map.h"
 #include "splotchcl/error.h"
 #include "splotchcl/frame_check.h"
 #include "tree/error_cells.h"
+#include "tree/field_colors.h"
 #include "tree/node_bytes.h"
 #include "tree/pixel_response.h"
 
@@ -34,48 +34,6 @@ constexpr double nearest_reaches = 20, nearest_widths = 12;
 constexpr double standard_deviations = 6;
 constexpr double reach_in_sigma = 7;  // no cloud is drawn farther
 
-// Palette colors of stored field values, by their sixteen bits.
-class FieldColors {
- public:
-  FieldColors(const DrawnComponent& component, bool has_field) : entries_(has_field ? values : 1) {
-    for_blocks(entries_.size(), 4096, [&](std::size_t first, std::size_t last) {
-      for (std::size_t v = first; v < last; ++v) {
-        const double value =
-            has_field ? static_cast<double>(value_of_ordered(static_cast<std::uint16_t>(v))) : 0;
-        const auto color = sample_knots(component.palette.emission,
-                                        has_field ? normalized(value, component.color) : 0);
-        for (std::size_t c = 0; c < 3; ++c)
-          entries_[v].color[c] = static_cast<float>(color[c]);
-      }
-    });
-    for (std::size_t v = 1; v < entries_.size(); ++v) {
-      float change = 0;
-      for (std::size_t c = 0; c < 3; ++c)
-        change = std::max(change, std::abs(entries_[v].color[c] - entries_[v - 1].color[c]));
-      entries_[v].changes = entries_[v - 1].changes + change;
-    }
-  }
-
-  const std::array<float, 3>& color(std::size_t v) const { return entries_[v].color; }
-  // How far colors lie apart between two values at most, in any channel.
-  float spread(std::size_t a, std::size_t b) const {
-    return std::min(2.0f, std::abs(entries_[a].changes - entries_[b].changes));
-  }
-
- private:
-  static constexpr std::size_t values = 65536;
-  struct Entry {
-    std::array<float, 3> color{};
-    float changes = 0;  // from the first value to this
-  };
-  std::vector<Entry> entries_;
-};
-
-std::size_t sampled_value(const SampledField& field, std::size_t k) {
-  const unsigned span = static_cast<unsigned>(field.highest) - field.lowest;
-  return field.lowest + (span * field.members[k] + 127) / 255;
-}
-
 // What the fields of a node's members make of its light.
 struct NodeColor {
   std::array<float, 3> mean = {1, 1, 1};
@@ -89,11 +47,11 @@ struct TreePart {
   const TreeOfComponent::Part* part = nullptr;
   const TreeOfComponent* of_component = nullptr;
   const DrawnComponent* drawn = nullptr;
-  std::shared_ptr<const FieldColors> colors;
-  std::vector<float> intensities;  // by sixteen bits; empty: 1
-  double deviation_per_h = 0;      // in lengths
-  double light_per_flux = 0;       // times pixels per length squared: the sum over pixels
-  double least_amplitude = 0;      // of absorption, over brightness
+  std::optional<FieldPlaces> color_places, intensities;  // of the fields that are used
+  std::optional<PaletteWay> palette;
+  double deviation_per_h = 0;  // in lengths
+  double light_per_flux = 0;   // times pixels per length squared: the sum over pixels
+  double least_amplitude = 0;  // of absorption, over brightness
 };
 
 struct Item {
@@ -173,15 +131,9 @@ class Cutter {
       added.part = &part;
       added.of_component = &tree;
       added.drawn = &drawn;
-      added.colors = std::make_shared<const FieldColors>(drawn, part.color >= 0);
-      if (part.intensity >= 0) {
-        added.intensities.resize(65536);
-        for (std::size_t v = 0; v < added.intensities.size(); ++v) {
-          added.intensities[v] = static_cast<float>(
-              normalized(static_cast<double>(value_of_ordered(static_cast<std::uint16_t>(v))),
-                         drawn.intensity));
-        }
-      }
+      added.palette.emplace(drawn.palette);
+      if (part.color >= 0) added.color_places.emplace(drawn.color);
+      if (part.intensity >= 0) added.intensities.emplace(drawn.intensity);
       const double width = frame_.kernel.width * drawn.size_factor;
       added.deviation_per_h = width / std::sqrt(2.0);
       const double factor = drawn.weight == WeightModel::mass ? 1
@@ -306,32 +258,32 @@ class Cutter {
     NodeColor color;
     const std::size_t fields = part.part->tree->fields.size();
     if (part.part->color < 0 && part.part->intensity < 0) {
-      color.mean = part.colors->color(0);
+      color.mean = part.palette->color(0);
       return color;
     }
     const SampledField* const sampled = level.fields + node * fields;
-    std::array<std::size_t, sampled_members> values{};
-    std::array<float, sampled_members> factors;
+    std::array<float, sampled_members> places{}, factors;
     factors.fill(1);
     for (std::size_t k = 0; k < sampled_members; ++k) {
-      if (part.part->color >= 0) values[k] = sampled_value(sampled[part.part->color], k);
-      if (part.part->intensity >= 0)
-        factors[k] = part.intensities[sampled_value(sampled[part.part->intensity], k)];
+      if (part.color_places) places[k] = (*part.color_places)(sampled[part.part->color].ordered(k));
+      if (part.intensities)
+        factors[k] = (*part.intensities)(sampled[part.part->intensity].ordered(k));
     }
     constexpr float share = 1.0f / sampled_members;
     color.mean = {0, 0, 0};
     std::array<float, 3> squares{};
     float variance = 0;
     for (std::size_t k = 0; k < sampled_members; ++k) {
+      const std::array<float, 3> member = part.palette->color(places[k]);
       for (std::size_t c = 0; c < 3; ++c) {
-        const float value = part.colors->color(values[k])[c] * factors[k];
+        const float value = member[c] * factors[k];
         color.mean[c] += value * share;
         squares[c] += value * value * share;
       }
       const std::size_t before = k > 0 ? k - 1 : k;
       const std::size_t after = k + 1 < sampled_members ? k + 1 : k;
       // Between neighbours lies what the eighth may hold.
-      const float spread = part.colors->spread(values[before], values[after]) *
+      const float spread = part.palette->spread(places[before], places[after]) *
                                std::max({factors[before], factors[k], factors[after]}) +
                            std::abs(factors[after] - factors[before]);
       variance += spread * spread / 12 * share * share;

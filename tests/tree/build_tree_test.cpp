@@ -9,7 +9,7 @@
 #include <set>
 
 #include "splotchcl/error.h"
-#include "tree/node_bytes.h"
+#include "tree/sampled_field.h"
 #include "tree/tree_scenes.h"
 
 namespace splotchcl::test {
@@ -97,11 +97,8 @@ TEST(BuildTree, SamplesMembersWithoutBias) {
       exact += matter.color[place] > 3 ? 1 : 0;
     exact /= static_cast<double>(places.size());
     const SampledField& field = level.fields[node];
-    const unsigned span = static_cast<unsigned>(field.highest) - field.lowest;
-    for (const std::uint8_t member : field.members) {
-      const auto value = static_cast<std::uint16_t>(field.lowest + (span * member + 127) / 255);
-      sampled += value_of_ordered(value) > 3 ? 1.0 / 8 : 0;
-    }
+    for (std::size_t k = 0; k < sampled_members; ++k)
+      sampled += value_of_ordered(field.ordered(k)) > 3 ? 1.0 / 8 : 0;
     difference += sampled - exact;
     squares += (sampled - exact) * (sampled - exact);
     sampled_sum += sampled;
@@ -139,15 +136,25 @@ TEST(BuildTree, RefusesMoreThan255ParticlesInOnePlace) {
   EXPECT_THROW(tree_of(matter), UsageError);
 }
 
-TEST(OrderedValue, KeepsTheOrderAndSevenBits) {
-  const std::vector<float> rising = {-1e30f, -2.5f, -1e-20f, 0, 1e-20f, 1, 1.01f, 3e4f, 1e30f};
-  for (std::size_t i = 0; i < rising.size(); ++i) {
-    if (i > 0) {
-      EXPECT_LT(ordered_value(rising[i - 1]), ordered_value(rising[i]));
-    }
-    const float back = value_of_ordered(ordered_value(rising[i]));
-    EXPECT_NEAR(back, rising[i], std::abs(rising[i]) / 250);
+TEST(SampledField, HoldsEqualValuesExactly) {
+  for (const float value : {-1e30f, -2.5f, 0.0f, 1e-20f, 10237.0f}) {
+    const std::vector<float> equal(sampled_members, value);
+    EXPECT_EQ(value_of_ordered(SampledField::of(equal.data()).ordered(3)), value);
   }
+}
+
+TEST(SampledField, HoldsOthersToAPartOfTheirSpread) {
+  const std::vector<float> values = {1000, 1000.5f, 1001, 1002, 1003, 1004, 1004.5f, 1005};
+  const SampledField field = SampledField::of(values.data());
+  for (std::size_t k = 0; k < sampled_members; ++k)
+    EXPECT_NEAR(value_of_ordered(field.ordered(k)), values[k], 5.1 / 510);
+}
+
+TEST(SampledField, KeepsTheOrderOfValuesOfAnySize) {
+  const std::vector<float> rising = {-1e30f, -2.5f, -1e-20f, 0, 1e-20f, 1, 3e4f, 1e30f};
+  const SampledField field = SampledField::of(rising.data());
+  for (std::size_t k = 1; k < sampled_members; ++k)
+    EXPECT_LE(field.ordered(k - 1), field.ordered(k));
 }
 
 }  // namespace
