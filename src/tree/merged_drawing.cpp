@@ -15,7 +15,7 @@
 namespace splotchcl {
 namespace {
 
-constexpr double part_of_nodes = 0.75;      // of the tolerance
+constexpr double part_of_nodes = 0.7;       // of the tolerance
 constexpr double verified_finer = 4;        // error of the cut to which a picture is compared
 constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
 constexpr double most_found = 0.9;          // of the promise, on blocks that are verified

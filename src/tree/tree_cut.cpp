@@ -286,7 +286,7 @@ class Cutter {
       const float spread = part.palette->spread(places[before], places[after]) *
                                std::max({factors[before], factors[k], factors[after]}) +
                            std::abs(factors[after] - factors[before]);
-      variance += spread * spread / 12 * share * share;
+      variance += spread * spread / 8 * share * share;
     }
     color.variance = static_cast<double>(variance);
     for (std::size_t c = 0; c < 3; ++c) {
