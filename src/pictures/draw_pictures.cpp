@@ -176,7 +176,9 @@ DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const Snapsh
     const std::vector<Picture> others =
         other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-      change_both(pictures[i], [&](auto part) { mix(pictures[i].*part, others[i].*part, amount); });
+      const double part_of_other = amount;  // which a lambda may take
+      change_both(pictures[i],
+                  [&](auto part) { mix(pictures[i].*part, others[i].*part, part_of_other); });
     }
   }
   for (Picture& picture : pictures) {
