@@ -18,7 +18,7 @@ namespace {
 constexpr double part_of_nodes = 0.7;       // of the tolerance
 constexpr double verified_finer = 4;        // error of the cut to which a picture is compared
 constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
-constexpr double most_found = 0.9;          // of the promise, on blocks that are verified
+constexpr double most_found = 0.65;         // of the promise, on blocks that are verified
 constexpr int most_cuts = 3;
 constexpr int blocks_of_region = 4;  // on each side
 constexpr std::size_t regions_of_each_kind = 4;
@@ -36,10 +36,10 @@ std::vector<Rectangle> all_regions(const Rectangle& crop) {
   return regions;
 }
 
-float largest_expected(const Rectangle& region, const Rectangle& crop,
-                       const std::vector<float>& expected) {
+float largest_alike(const Rectangle& region, const Rectangle& crop,
+                    const std::vector<float>& alike) {
   BlockErrors blocks(crop.width, crop.height);
-  blocks.errors = expected;
+  blocks.errors = alike;
   float largest = 0;
   for (int y = region.y; y < region.y + region.height; y += BlockErrors::block_pixels) {
     for (int x = region.x; x < region.x + region.width; x += BlockErrors::block_pixels)
@@ -48,13 +48,14 @@ float largest_expected(const Rectangle& region, const Rectangle& crop,
   return largest;
 }
 
-// Those where most is expected, and as many others that every camera chooses anew; of few all.
-std::vector<Rectangle> verified_regions(const Frame& frame, const std::vector<float>& expected) {
+// Those where nodes would err most if they erred alike, and as many others that every camera
+// chooses anew; of few all.
+std::vector<Rectangle> verified_regions(const Frame& frame, const std::vector<float>& alike) {
   std::vector<Rectangle> regions = all_regions(frame.crop);
   if (regions.size() <= 2 * regions_of_each_kind) return regions;
   std::vector<std::pair<float, std::size_t>> by_error;
   for (std::size_t r = 0; r < regions.size(); ++r)
-    by_error.emplace_back(-largest_expected(regions[r], frame.crop, expected), r);
+    by_error.emplace_back(-largest_alike(regions[r], frame.crop, alike), r);
   std::sort(by_error.begin(), by_error.end());
   WordHash hash;
   for (const double number : frame.camera.position.a)
@@ -116,14 +117,16 @@ std::optional<MergedDrawing> draw_merged(const Frame& frame,
   double error = part_of_nodes * frame.tolerance;
   for (drawing.cuts = 1; drawing.cuts <= most_cuts; ++drawing.cuts) {
     TreeCut cut = cut_tree(frame, {error, {}});
+    const bool is_worth_it = cut.nodes + cut.particles < particle_count(frame) / 4;
+    if (drawing.cuts > 1 && !is_worth_it) return std::nullopt;
     cut.frame.tolerance = (1 - part_of_nodes) * frame.tolerance;
     drawing.image = draw(cut.frame);
     drawing.nodes = cut.nodes;
     drawing.particles = cut.particles;
     drawing.visited += cut.visited;
-    verify(frame, error, verified_regions(frame, cut.expected), draw, drawing);
+    verify(frame, error, verified_regions(frame, cut.alike), draw, drawing);
     if (drawing.found <= most_found) return drawing;
-    error *= std::max(0.2, 0.6 / drawing.found);
+    error *= std::max(0.2, 0.5 / drawing.found);
   }
   return std::nullopt;
 }

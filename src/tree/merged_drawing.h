@@ -21,10 +21,11 @@ struct MergedDrawing {
   double found = 0;
 };
 
-// Draws a frame with nodes in place of particles (tree_cut.h), so that nodes take three quarters of
-// its tolerance. A share of the picture's blocks, those where most is expected and others, is drawn
-// again from a finer cut; where they differ by more than the tolerance the whole is, from a finer
-// one. Nothing where that does not help: the particles have to be drawn.
+// Draws a frame with nodes in place of particles (tree_cut.h), so that nodes take seven tenths of
+// its tolerance. A share of the picture's blocks, those where nodes might err alike and others, is
+// drawn again from a finer cut; where they differ by more than two thirds of the tolerance the
+// whole is, from a finer one: the finer cut may err by a quarter as much the same way. Nothing
+// where that does not help: the particles have to be drawn.
 std::optional<MergedDrawing> draw_merged(const Frame& frame,
                                          const std::function<Image(const Frame&)>& draw);
 

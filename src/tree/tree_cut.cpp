@@ -91,6 +91,7 @@ class Cutter {
         settings_(settings),
         regions_(settings.regions.empty() ? std::vector<Rectangle>{frame.crop} : settings.regions),
         errors_(frame.crop.width, frame.crop.height),
+        alike_(frame.crop.width, frame.crop.height),
         light_(frame.crop.width, frame.crop.height),
         nodes_(frame.components.size()) {
     has_sums_ = std::all_of(frame.components.begin(), frame.components.end(), [](const auto& c) {
@@ -432,6 +433,10 @@ class Cutter {
   void keep(const Frontier& frontier, std::size_t i, std::size_t level) {
     const Weighed& node = frontier.weighed[i];
     errors_.at(node.scale, node.cell) += variance_of(node);
+    const double pixels = errors_.pixels(node.scale);
+    alike_.at(node.scale, node.cell) +=
+        std::sqrt(static_cast<double>(node.error2) * static_cast<double>(node.area)) /
+        (pixels * pixels);
     add_light(node, light_);
     draw_node(parts_[frontier.part], frontier.items[i], level, node);
     ++kept_;
@@ -511,7 +516,7 @@ class Cutter {
     }
     cut.nodes = kept_;
     cut.visited = visited_;
-    cut.expected = expected();
+    cut.alike = alike();
     return cut;
   }
 
@@ -531,19 +536,18 @@ class Cutter {
     return merged;
   }
 
-  std::vector<float> expected() const {
-    const auto used = errors_.totals();
+  std::vector<float> alike() const {
+    const auto errors = alike_.totals();
     const auto light = light_.least_totals();
     BlockErrors blocks(frame_.crop.width, frame_.crop.height);
-    const int columns = errors_.columns(0);
+    const auto columns = static_cast<std::size_t>(alike_.columns(0));
     constexpr int cells_of_block = BlockErrors::block_pixels / ErrorCells::cell_pixels;
-    for (std::size_t cell = 0; cell < used[0].size(); ++cell) {
-      const int x = static_cast<int>(cell % static_cast<std::size_t>(columns)) / cells_of_block;
-      const int y = static_cast<int>(cell / static_cast<std::size_t>(columns)) / cells_of_block;
+    for (std::size_t cell = 0; cell < errors[0].size(); ++cell) {
+      const int x = static_cast<int>(cell % columns) / cells_of_block;
+      const int y = static_cast<int>(cell / columns) / cells_of_block;
       const double over = has_sums_ ? std::max(1.0, light[0][cell]) : 1;
       float& block = blocks.errors[static_cast<std::size_t>(y * blocks.columns + x)];
-      block = std::max(block,
-                       static_cast<float>(standard_deviations * std::sqrt(used[0][cell]) / over));
+      block = std::max(block, static_cast<float>(errors[0][cell] / over));
     }
     return blocks.errors;
   }
@@ -553,7 +557,7 @@ class Cutter {
   std::vector<Rectangle> regions_;
   bool has_sums_ = false;
   std::vector<TreePart> parts_;
-  ErrorCells errors_, light_;  // of the nodes that are kept
+  ErrorCells errors_, alike_, light_;  // of the nodes that are kept
   mutable std::vector<std::vector<double>> single_;
   std::vector<DrawnNodes> nodes_;  // of each component
   std::uint64_t kept_ = 0, visited_ = 0;

@@ -20,9 +20,9 @@ struct TreeCut {
   Frame frame;  // of each component with a tree two: nodes, and particles
   std::uint64_t nodes = 0, particles = 0;
   std::uint64_t visited = 0;  // nodes that were looked at
-  // What is expected of each block of 16 x 16 pixels of the crop (BlockErrors), over
-  // max(1, light): six standard deviations.
-  std::vector<float> expected;
+  // Of each block of 16 x 16 pixels of the crop (BlockErrors), over max(1, light): what all its
+  // nodes would err by together if they erred alike, as they do around a peak of light and color.
+  std::vector<float> alike;
 };
 
 // Whether nodes can stand for particles in this frame, and for which components (docs/tree.md,

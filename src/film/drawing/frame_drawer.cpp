@@ -25,8 +25,9 @@
 namespace splotchcl {
 namespace {
 
-// More than so many, and a tree is drawn of (docs/performance.md).
-constexpr double particles_over_a_pixel = 50;
+// Particles over a pixel times the squared tolerance: above it a tree takes less time than the
+// particles (docs/dev/performance.md).
+constexpr double least_gain_of_trees = 0.03;
 
 // Of several views the one that keeps its promise least well counts.
 void add(const FrameCheck& frame, FrameCheck& total) {
@@ -197,8 +198,9 @@ struct FrameDrawer::State {
           "above 0 and a tree beside its snapshot (splotchcl tree); docs/tree.md tells what else");
     }
     const double pixels = static_cast<double>(view.width) * view.height;
-    return is_possible && (tree == TreeUse::only || static_cast<double>(particle_count(view)) >
-                                                        particles_over_a_pixel * pixels);
+    const double gain =
+        static_cast<double>(particle_count(view)) / pixels * view.tolerance * view.tolerance;
+    return is_possible && (tree == TreeUse::only || gain > least_gain_of_trees);
   }
 
   Image draw_alone(const Frame& view, RenderStats& total) {
