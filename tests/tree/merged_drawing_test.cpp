@@ -101,6 +101,34 @@ TEST_F(MergedDrawings, KeepTheToleranceForALatticeAlongTheView) {
   }
 }
 
+// Hot in the middle, so that nodes around it carry heat outwards, all of them alike.
+TEST_F(MergedDrawings, KeepTheToleranceAroundPeaksOfLightAndColor) {
+  int served = 0;
+  for (const double size : {0.01, 0.03, 0.1}) {
+    std::mt19937_64 random(31);
+    std::normal_distribution<double> normal;
+    Matter matter;
+    for (int i = 0; i < 60000; ++i) {
+      const double d[3] = {normal(random), normal(random), normal(random)};
+      const double away = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+      const double shrunk = size * away * away;
+      matter.add(0.5 + shrunk * d[0], 0.5 + shrunk * d[1], 0.5 + shrunk * d[2],
+                 0.1 * size * (0.1 + away * away), 1, std::exp(2 - 2 * away));
+    }
+    for (const double tolerance : {1e-2, 1e-3}) {
+      Frame frame = frame_of(matter, 40, 30);
+      frame.tolerance = tolerance;
+      plant(frame, tree_of(matter));
+      const auto drawing = draw_from_tree(frame);
+      if (!drawing) continue;
+      ++served;
+      EXPECT_LE(error_of(drawing->image, frame), 1)
+          << "size " << size << ", tolerance " << tolerance << ", found " << drawing->found;
+    }
+  }
+  EXPECT_GT(served, 0);
+}
+
 TEST_F(MergedDrawings, TakeFewerSplatsThanThereAreParticles) {
   const Matter matter = clumps(200000, 21);
   Frame frame = frame_of(matter, 40, 30);
