@@ -183,7 +183,7 @@ struct FrameDrawer::State {
       }
       drawn.notes.push_back(
           "the tree of merged particles does not serve this picture: blocks of it that were drawn "
-          "again differ by more than the tolerance; the particles were drawn");
+          "again differ by too much of the tolerance; the particles were drawn");
     }
     return draw_alone(view, drawn.stats);
   }
