@@ -58,11 +58,6 @@ std::uint64_t key_of(const SnapshotInfo& info) {
   return hash.value();
 }
 
-// One that is still open may be of files that others have replaced since.
-bool has_files_as_opened(const SnapshotInfo& info) {
-  return hash_of_files(info).value() == info.files_mark;
-}
-
 // Tables of text are read as a whole, and which column is which a scene may say anew.
 bool has_parts(const SnapshotInfo& info) {
   const auto begins_with = [&info](const char* word) { return info.format.rfind(word, 0) == 0; };

@@ -177,8 +177,12 @@ WordHash hash_of_files(const SnapshotInfo& info) {
   return hash;
 }
 
+bool has_files_as_opened(const SnapshotInfo& info) {
+  return hash_of_files(info).value() == info.files_mark;
+}
+
 void check_files_are_the_same(const SnapshotInfo& info) {
-  if (hash_of_files(info).value() == info.files_mark) return;
+  if (has_files_as_opened(info)) return;
   throw DataError(info.files.front().string() +
                   ": the snapshot was written anew, moved or removed since it was opened; open it "
                   "again when it is complete");

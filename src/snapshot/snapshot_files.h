@@ -45,6 +45,9 @@ std::filesystem::path find_by_base_name(const std::filesystem::path& path);
 // Of the names, lengths and times of a snapshot's files, as they are now.
 WordHash hash_of_files(const SnapshotInfo& info);
 
+// Whether they are still those that the snapshot was opened with.
+bool has_files_as_opened(const SnapshotInfo& info);
+
 // For a snapshot that opens its files by their names again. Throws DataError where they are others
 // than those of its header.
 void check_files_are_the_same(const SnapshotInfo& info);

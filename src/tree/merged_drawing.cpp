@@ -36,21 +36,18 @@ std::vector<Rectangle> all_regions(const Rectangle& crop) {
   return regions;
 }
 
-float largest_alike(const Rectangle& region, const Rectangle& crop,
-                    const std::vector<float>& alike) {
-  BlockErrors blocks(crop.width, crop.height);
-  blocks.errors = alike;
+float largest_alike(const Rectangle& region, const Rectangle& crop, const BlockErrors& alike) {
   float largest = 0;
   for (int y = region.y; y < region.y + region.height; y += BlockErrors::block_pixels) {
     for (int x = region.x; x < region.x + region.width; x += BlockErrors::block_pixels)
-      largest = std::max(largest, blocks.at(x - crop.x, y - crop.y));
+      largest = std::max(largest, alike.at(x - crop.x, y - crop.y));
   }
   return largest;
 }
 
 // Those where nodes would err most if they erred alike, and as many others that every camera
 // chooses anew; of few all.
-std::vector<Rectangle> verified_regions(const Frame& frame, const std::vector<float>& alike) {
+std::vector<Rectangle> verified_regions(const Frame& frame, const BlockErrors& alike) {
   std::vector<Rectangle> regions = all_regions(frame.crop);
   if (regions.size() <= 2 * regions_of_each_kind) return regions;
   std::vector<std::pair<float, std::size_t>> by_error;

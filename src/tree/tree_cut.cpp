@@ -78,6 +78,15 @@ struct Frontier {
   std::vector<Weighed> weighed;
 };
 
+// A number for each cell of each scale.
+using CellNumbers = std::vector<std::vector<double>>;
+
+// What nodes of a level may err by to be kept: variances of a pixel.
+struct LevelLimits {
+  CellNumbers promised;    // of all nodes of a cell together
+  CellNumbers thresholds;  // of one node, as long as there is something left
+};
+
 // What becomes a component.
 struct DrawnNodes {
   std::vector<float> position, smoothing_length, weight, color;
@@ -111,10 +120,10 @@ class Cutter {
     for (std::size_t level = 0; !frontiers.empty(); ++level) {
       for (Frontier& frontier : frontiers)
         weigh(frontier, level);
-      const auto thresholds = decide(frontiers);
+      const LevelLimits limits = decide(frontiers);
       std::vector<Frontier> next;
       for (const Frontier& frontier : frontiers) {
-        Frontier opened = take(frontier, level, thresholds);
+        Frontier opened = take(frontier, level, limits);
         if (!opened.items.empty()) next.push_back(std::move(opened));
       }
       frontiers = std::move(next);
@@ -228,8 +237,7 @@ class Cutter {
   }
   // All members have to be within limits, or none.
   bool is_at_limit(double depth, double reach) const {
-    const double nearest = frame_.near_limit.value_or(0);
-    if (frame_.near_limit && std::abs(depth - nearest) <= 1.01 * reach) return true;
+    if (frame_.near_limit && std::abs(depth - *frame_.near_limit) <= 1.01 * reach) return true;
     return frame_.far_limit && std::abs(depth - *frame_.far_limit) <= 1.01 * reach;
   }
   bool is_beyond_limits(double depth) const {
@@ -340,14 +348,14 @@ class Cutter {
   }
 
   // What six standard deviations may be in each cell, squared and over 36.
-  std::vector<std::vector<double>> allowed(const std::vector<Frontier>& frontiers) const {
+  CellNumbers allowed(const std::vector<Frontier>& frontiers) const {
     ErrorCells light = light_;
     for (const Frontier& frontier : frontiers) {
       for (const Weighed& node : frontier.weighed) {
         if (node.fate == Fate::weighed) add_light(node, light);
       }
     }
-    std::vector<std::vector<double>> allowed = light.least_totals();
+    CellNumbers allowed = light.least_totals();
     for (std::vector<double>& cells : allowed) {
       for (double& cell : cells) {
         const double promise = settings_.error * (has_sums_ ? std::max(1.0, 0.5 * cell) : 1);
@@ -363,11 +371,12 @@ class Cutter {
 
   // The variance up to which nodes of a cell are kept at this level: those that err least, as long
   // as they take their part of what is left.
-  std::vector<std::vector<double>> decide(const std::vector<Frontier>& frontiers) const {
+  LevelLimits decide(const std::vector<Frontier>& frontiers) const {
     constexpr int bins = 24;  // octaves of variance below all that is left
-    const auto promised = allowed(frontiers);
+    LevelLimits limits{allowed(frontiers), {}};
+    const CellNumbers& promised = limits.promised;
     const auto used = errors_.totals();
-    std::vector<std::vector<double>> left(promised.size()), sums(promised.size());
+    CellNumbers left(promised.size()), sums(promised.size());
     for (std::size_t s = 0; s < promised.size(); ++s) {
       left[s].resize(promised[s].size());
       for (std::size_t cell = 0; cell < left[s].size(); ++cell)
@@ -388,7 +397,8 @@ class Cutter {
         if (bin < bins) sums[node.scale][cell * bins + static_cast<std::size_t>(bin)] += variance;
       }
     }
-    std::vector<std::vector<double>> thresholds(promised.size());
+    CellNumbers& thresholds = limits.thresholds;
+    thresholds.resize(promised.size());
     for (std::size_t s = 0; s < left.size(); ++s) {
       thresholds[s].assign(left[s].size(), 0);
       for (std::size_t cell = 0; cell < left[s].size(); ++cell) {
@@ -400,28 +410,25 @@ class Cutter {
         thresholds[s][cell] = std::ldexp(left[s][cell], bin - bins - 1);
       }
     }
-    single_ = promised;
-    return thresholds;
+    return limits;
   }
 
-  bool is_kept(const Weighed& node, const std::vector<std::vector<double>>& thresholds) const {
-    const std::size_t cell = node.cell;
+  bool is_kept(const Weighed& node, const LevelLimits& limits) const {
     const double variance = variance_of(node);
     if (!(variance > 0)) return true;
     constexpr double deviations = standard_deviations / most_of_one_node;
-    const double most = deviations * deviations * single_[node.scale][cell];
+    const double most = deviations * deviations * limits.promised[node.scale][node.cell];
     const double largest = static_cast<double>(node.error2) / static_cast<double>(node.area);
-    return variance < thresholds[node.scale][cell] && largest <= most;
+    return variance < limits.thresholds[node.scale][node.cell] && largest <= most;
   }
 
-  Frontier take(const Frontier& frontier, std::size_t level,
-                const std::vector<std::vector<double>>& thresholds) {
+  Frontier take(const Frontier& frontier, std::size_t level, const LevelLimits& limits) {
     Frontier next{frontier.part, {}, {}};
     next.items.reserve(4 * frontier.items.size());
     for (std::size_t i = 0; i < frontier.items.size(); ++i) {
       const Weighed& node = frontier.weighed[i];
       if (node.fate == Fate::unseen) continue;
-      if (node.fate == Fate::weighed && is_kept(node, thresholds)) {
+      if (node.fate == Fate::weighed && is_kept(node, limits)) {
         keep(frontier, i, level);
       } else {
         open(frontier, i, level, next.items);
@@ -536,7 +543,7 @@ class Cutter {
     return merged;
   }
 
-  std::vector<float> alike() const {
+  BlockErrors alike() const {
     const auto errors = alike_.totals();
     const auto light = light_.least_totals();
     BlockErrors blocks(frame_.crop.width, frame_.crop.height);
@@ -549,7 +556,7 @@ class Cutter {
       float& block = blocks.errors[static_cast<std::size_t>(y * blocks.columns + x)];
       block = std::max(block, static_cast<float>(errors[0][cell] / over));
     }
-    return blocks.errors;
+    return blocks;
   }
 
   const Frame& frame_;
@@ -558,8 +565,7 @@ class Cutter {
   bool has_sums_ = false;
   std::vector<TreePart> parts_;
   ErrorCells errors_, alike_, light_;  // of the nodes that are kept
-  mutable std::vector<std::vector<double>> single_;
-  std::vector<DrawnNodes> nodes_;  // of each component
+  std::vector<DrawnNodes> nodes_;      // of each component
   std::uint64_t kept_ = 0, visited_ = 0;
 };
 

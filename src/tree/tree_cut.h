@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "splotchcl/frame.h"
+#include "splotchcl/frame_check.h"
 #include "tree/particle_tree.h"
 
 namespace splotchcl {
@@ -20,9 +21,9 @@ struct TreeCut {
   Frame frame;  // of each component with a tree two: nodes, and particles
   std::uint64_t nodes = 0, particles = 0;
   std::uint64_t visited = 0;  // nodes that were looked at
-  // Of each block of 16 x 16 pixels of the crop (BlockErrors), over max(1, light): what all its
+  // Of each block of the crop, over max(1, light): what all its
   // nodes would err by together if they erred alike, as they do around a peak of light and color.
-  std::vector<float> alike;
+  BlockErrors alike;
 };
 
 // Whether nodes can stand for particles in this frame, and for which components (docs/tree.md,

@@ -253,7 +253,7 @@ void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees)
     throw UsageError(fmt::format(
         "{}: found a file that is no tree, expected none or a tree; move it", path.string()));
   }
-  if (hash_of_files(info).value() != info.files_mark) {
+  if (!has_files_as_opened(info)) {
     throw DataError(info.files.front().string() +
                     ": was written anew while its tree was made; make it again when the snapshot "
                     "is complete");
@@ -275,7 +275,7 @@ void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees)
 }
 
 std::optional<Trees> read_trees(const SnapshotInfo& info) {
-  if (!tree_is_there(info) || hash_of_files(info).value() != info.files_mark) return std::nullopt;
+  if (!tree_is_there(info) || !has_files_as_opened(info)) return std::nullopt;
   const auto file = MappedFile::open_if_possible(tree_path(info));
   FileHeader header{};
   if (file == nullptr || file->size() < sizeof header) return std::nullopt;
