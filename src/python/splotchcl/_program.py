@@ -1,0 +1,27 @@
+"""The command line, where a wheel brings it along."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from ._opencl import choose_packaged_opencl
+
+
+def main() -> None:
+    """Becomes the program."""
+    program = Path(__file__).parent / "bin" / "splotchcl"
+    if not program.exists():
+        raise SystemExit(
+            f"splotchcl: this package has no program ({program}); a wheel of `scripts/wheel "
+            "--bundle` has one"
+        )
+
+    def has_devices() -> bool:
+        command = [program, "devices"]
+        return subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+    choose_packaged_opencl(has_devices)
+    os.execv(program, ["splotchcl", *sys.argv[1:]])
