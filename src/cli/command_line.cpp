@@ -68,8 +68,8 @@ const CLI::Validator not_negative(
     },
     "");
 
-// What render and movie take alike.
-void add_draw_options(CLI::App& sub, DrawOptions& options) {
+// What all that read scenes for pictures take alike.
+void add_scene_options(CLI::App& sub, DrawOptions& options) {
   sub.add_option("--device", options.device,
                  wrapped("Part of an OpenCL device's name; splotchcl devices lists them. Default: "
                          "a GPU if there is one"))
@@ -79,10 +79,6 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
       ->allow_extra_args(false);
   sub.add_option("--size", options.size, wrapped("Width and height of the picture, in pixels"))
       ->type_name("WIDTHxHEIGHT");
-  sub.add_option("--tolerance", options.tolerance,
-                 wrapped("Largest error of a pixel, in units of the display's white; 0: as exact "
-                         "as possible. Default: the scene's, or 0.001"))
-      ->type_name("X");
   sub.add_option("--look", options.look,
                  wrapped("What a snapshot's picture looks like: press, classic or paper. Default: "
                          "press"))
@@ -97,6 +93,15 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
   sub.add_flag(
       "--cache-smoothing-lengths", options.cache_smoothing_lengths,
       wrapped("Store computed smoothing lengths in a file beside the snapshot, and reuse them"));
+}
+
+// What render and movie take alike.
+void add_draw_options(CLI::App& sub, DrawOptions& options) {
+  add_scene_options(sub, options);
+  sub.add_option("--tolerance", options.tolerance,
+                 wrapped("Largest error of a pixel, in units of the display's white; 0: as exact "
+                         "as possible. Default: the scene's, or 0.001"))
+      ->type_name("X");
   sub.add_flag(
       "--reference", options.reference,
       wrapped("Draw with the slow reference renderer in double precision instead of a device"));
@@ -164,6 +169,32 @@ void add_render(CLI::App& app, Run& run, Console& console) {
       "  splotchcl render snapshot_006 --explain > scene.toml\n"
       "  splotchcl render scene.toml -o light.exr --crop 256,256,128,128\n"
       "  mpirun -n 8 splotchcl render scene.toml -o large.png");
+}
+
+void add_publish(CLI::App& app, Run& run, Console& console) {
+  const auto options = std::make_shared<PublishOptions>();
+  CLI::App* const sub = add_command<PublishOptions>(
+      app, run, "publish", "Make a page for the web that one looks around in", options,
+      [&console](const PublishOptions& o) { return run_publish(o, console); });
+  sub->add_option("SCENE", options->scene, wrapped("A scene file, or a snapshot, as for render"))
+      ->required();
+  sub->add_option("-o,--output", options->output,
+                  wrapped("The page (.html), or a folder for it; it needs no other file"))
+      ->required()
+      ->type_name("FILE");
+  add_scene_options(*sub, *options);
+  sub->add_option("--splats", options->splats,
+                  wrapped("How many splats of light stand for the particles at most; a million "
+                          "takes some 13 MB. Default: 400000"))
+      ->check(CLI::Range(1, 4000000))
+      ->type_name("N");
+  sub->add_option("--title", options->title,
+                  wrapped("What the page is called. Default: the scene's title, or its name"))
+      ->type_name("TEXT");
+  sub->footer(
+      "Light has to add up: what hides what lies behind it is refused.\n"
+      "Example:\n"
+      "  splotchcl publish snapshot_006 -o universe.html --title \"A small universe\"");
 }
 
 void add_convert(CLI::App& app, Run& run, Console& console) {
@@ -408,6 +439,7 @@ int run_command_line(int argc, char** argv, Console& console) {
   app.get_formatter()->column_width(name_column);
   add_render(app, run, console);
   add_view(app, run, console);
+  add_publish(app, run, console);
   add_map(app, run, console);
   add_convert(app, run, console);
   add_movie(app, run, console);

@@ -45,6 +45,13 @@ struct RenderOptions : DrawOptions {
 };
 int run_render(const RenderOptions& options, Console& console);
 
+struct PublishOptions : DrawOptions {
+  std::filesystem::path output;  // a page, or a folder for it
+  std::optional<std::string> title;
+  std::size_t splats = 400000;  // at most
+};
+int run_publish(const PublishOptions& options, Console& console);
+
 struct ViewOptions {
   std::filesystem::path scene;
   std::string device;

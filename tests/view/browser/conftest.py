@@ -113,7 +113,9 @@ def browser():
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
     for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--window-size=1200,800",
-                     "--disable-dev-shm-usage", "--force-device-scale-factor=1"):
+                     "--disable-dev-shm-usage", "--force-device-scale-factor=1",
+                     # WebGL by the processor.
+                     "--use-angle=swiftshader", "--enable-unsafe-swiftshader"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     service = webdriver.chrome.service.Service(executable_path=driver)

@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/compiler_process.h"
+#include "common/output_files.h"
+#include "common/unfinished_file.h"
+#include "finish/ticks.h"
+#include "open_scene/input_files.h"
+#include "publish/light_splats.h"
+#include "publish/merge_splats.h"
+#include "publish/web_page.h"
+#include "splotchcl/error.h"
+#include "splotchcl/frame_drawer.h"
+#include "splotchcl/load.h"
+#include "splotchcl/open_scene.h"
+
+namespace splotchcl::cli {
+namespace {
+
+constexpr std::uint64_t most_page_bytes = 20'000'000;
+
+// A folder gets a page of the name that servers look for.
+std::filesystem::path page_path(const std::filesystem::path& output) {
+  const bool is_folder = output.filename().empty() || std::filesystem::is_directory(output);
+  return is_folder ? output / "index.html" : output;
+}
+
+void check_page_path(const std::filesystem::path& path) {
+  if (path.extension() != ".html") {
+    throw UsageError(fmt::format(
+        "--output: found {}, expected a folder, or a name that ends in .html", path.string()));
+  }
+  if (path.has_parent_path() && path.filename() == "index.html") {
+    std::error_code failed;
+    std::filesystem::create_directory(path.parent_path(), failed);
+  }
+  check_output_path(path);
+}
+
+// One view, without what lies over it.
+Scene plain(Scene scene) {
+  scene.stereo.reset();
+  scene.finish.inset = {};
+  return scene;
+}
+
+Image light_of(FrameDrawer& drawer, const Scene& scene, const Frame& frame,
+               const SnapshotInfo& snapshot, FinishSettings& finish) {
+  DrawnFrame drawn = drawer.draw(scene, frame, snapshot);
+  if (drawn.finish) finish = *drawn.finish;
+  return std::move(drawn.pictures.front().light);
+}
+
+void measure_difference(const Image& page, const Image& exact, WebPage& of_page) {
+  const double white =
+      of_page.finish.white.value_or(1) * std::exp2(-of_page.finish.exposure.value_or(0));
+  double sum = 0, largest = 0;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    if (i % 4 == 3) continue;
+    const double difference =
+        static_cast<double>(page.pixels[i]) - static_cast<double>(exact.pixels[i]);
+    sum += difference * difference;
+    largest = std::max(largest, std::abs(difference));
+  }
+  const double values = 0.75 * static_cast<double>(exact.pixels.size());
+  of_page.rms_difference = std::sqrt(sum / std::max(values, 1.0)) / white;
+  of_page.largest_difference = largest / white;
+}
+
+}  // namespace
+
+int run_publish(const PublishOptions& options, Console& console) {
+  const std::filesystem::path path = page_path(options.output);
+  check_page_path(path);
+  const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
+  for (const std::string& note : source.notes)
+    console.note(note);
+  check_outputs({{path, "--output"}},
+                [&] { return files_read(options.scene, source.scene, *source.snapshot); });
+  const Scene scene = plain(source.scene);
+  const SnapshotInfo& snapshot = source.snapshot->info();
+
+  std::vector<std::string> notes = snapshot.notes;
+  const LoadProgress progress = [&](const std::string& what, double fraction) {
+    console.progress(what, fraction);
+  };
+  const Frame frame = load_frame(scene, *source.snapshot, notes, progress);
+  for (const std::string& note : notes)
+    console.note(note);
+  check_page(frame);
+
+  console.status(fmt::format("merging {} particles", particle_count(frame)));
+  const std::vector<LightSplat> particles = light_splats(frame);
+  const PackedSplats packed = pack(merge_splats(particles, options.splats));
+
+  WebPage page;
+  page.title = options.title.value_or(
+      scene.finish.title.text.empty() ? options.scene.stem().string() : scene.finish.title.text);
+  page.unit = length_unit(snapshot);
+  page.gamma = scene.image.gamma;
+  page.particles = particles.size();
+  FrameDrawerOptions of_drawer;
+  of_drawer.device = options.device;
+  of_drawer.tree = TreeUse::never;
+  of_drawer.light = PictureLight::drawn;
+  of_drawer.start_compiler = compiler_processes(nullptr);
+  FrameDrawer drawer(of_drawer);
+  console.status("drawing what the page is compared with");
+  FinishSettings ignored;
+  const Image exact = light_of(drawer, scene, as_on_page(frame), snapshot, page.finish);
+  const Image shown = light_of(drawer, scene, as_on_page(frame, unpack(packed)), snapshot, ignored);
+  measure_difference(shown, exact, page);
+
+  const std::string text = make_web_page(page, frame, packed);
+  UnfinishedFile file(path);
+  file.write(text.data(), text.size());
+  file.finish();
+  if (text.size() > most_page_bytes)
+    console.note(fmt::format("the page has {:.0f} MB; --splats makes it smaller",
+                             1e-6 * static_cast<double>(text.size())));
+  console.done(fmt::format(
+      "{}: {} splats for {} particles, {:.1f} MB; from the particles they differ "
+      "by {:.2g} of white (rms), {:.2g} at most",
+      path.string(), packed.count(), page.particles, 1e-6 * static_cast<double>(text.size()),
+      page.rms_difference, page.largest_difference));
+  return 0;
+}
+
+}  // namespace splotchcl::cli

@@ -1,0 +1,77 @@
+#include "publish/light_splats.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "parallel/for_blocks.h"
+#include "scene/particle_rules.h"
+#include "scene/scalar_map.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr std::size_t particles_at_once = 1 << 15;
+
+LightSplat splat_of(const DrawnComponent& component, std::size_t i, double kernel_width,
+                    const Vec3& origin) {
+  const Particles& particles = component.particles;
+  const double h = component.size_factor * static_cast<double>(particles.smoothing_length[i]);
+  const double sigma = kernel_width * h;
+  const double weight =
+      particles.weight.is_absent() ? 1.0 : static_cast<double>(particles.weight[i]);
+  double column = central_column(component.weight, weight, h, sigma) / component.reference_column;
+  if (!particles.intensity.is_absent())
+    column *= normalized(static_cast<double>(particles.intensity[i]), component.intensity);
+  const double place = particles.color.is_absent()
+                           ? 0.0
+                           : normalized(static_cast<double>(particles.color[i]), component.color);
+  const std::array<double, 3> emission = sample_knots(component.palette.emission, place);
+  LightSplat splat;
+  splat.sigma = static_cast<float>(sigma);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    splat.place[axis] = static_cast<float>((particles.origin.a[axis] - origin.a[axis]) +
+                                           static_cast<double>(particles.position[3 * i + axis]));
+    const double own = particles.color_vector.is_absent()
+                           ? 1.0
+                           : static_cast<double>(particles.color_vector[3 * i + axis]);
+    splat.light[axis] = static_cast<float>(component.brightness * emission[axis] * own * column);
+  }
+  return splat;
+}
+
+}  // namespace
+
+Vec3 look_at_point(const CameraFrame& camera) {
+  Vec3 point = camera.position;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    point.a[axis] += camera.look_at_distance * camera.forward.a[axis];
+  return point;
+}
+
+std::vector<LightSplat> light_splats(const Frame& frame) {
+  const Vec3 origin = look_at_point(frame.camera);
+  std::vector<LightSplat> splats;
+  splats.reserve(particle_count(frame));
+  for (const DrawnComponent& component : frame.components) {
+    const std::size_t first = splats.size();
+    splats.resize(first + component.particles.count);
+    for_blocks(component.particles.count, particles_at_once,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t i = begin; i < end; ++i) {
+                   // Those that are left out have no width.
+                   if (is_bad(component.particles, i)) continue;
+                   splats[first + i] = splat_of(component, i, frame.kernel.width, origin);
+                 }
+               });
+  }
+  splats.erase(std::remove_if(splats.begin(), splats.end(),
+                              [](const LightSplat& splat) {
+                                const auto& light = splat.light;
+                                const float most = std::max({light[0], light[1], light[2]});
+                                return !(splat.sigma > 0) || !(most > 0);
+                              }),
+               splats.end());
+  return splats;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "splotchcl/frame.h"
+
+namespace splotchcl {
+
+// A Gaussian of light in space, the same from wherever it is seen: a ray that passes its center in
+// the distance d sees light exp(-d^2 / sigma^2).
+struct LightSplat {
+  std::array<float, 3> place{};  // lengths, relative to an origin
+  float sigma = 0;               // lengths, > 0
+  std::array<float, 3> light{};  // E w, linear: 1 is a display's white
+};
+
+// Those of all particles of the frame that are not bad, in its order, relative to its look-at
+// point. What the camera, its limits and what widens splats make of them is left to who draws.
+std::vector<LightSplat> light_splats(const Frame& frame);
+
+// The point that the frame's camera looks at, in lengths.
+Vec3 look_at_point(const CameraFrame& camera);
+
+}  // namespace splotchcl

@@ -1,0 +1,217 @@
+#include "publish/web_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "finish/white_balance.h"
+#include "splotchcl/error.h"
+#include "splotchcl/plan.h"
+#include "splotchcl_embedded/published_page.h"
+
+namespace splotchcl {
+namespace {
+
+using Json = nlohmann::json;
+
+Json json_of(const Vec3& v) {
+  return {v.a[0], v.a[1], v.a[2]};
+}
+
+// Light over what absorbs it; 0: nothing absorbs.
+double source_of(const Frame& frame) {
+  const FramePlan plan = make_plan(frame);
+  return plan.light == LightPlan::proportional ? plan.source[0] : 0.0;
+}
+
+Json camera_of(const Frame& frame) {
+  const CameraFrame& camera = frame.camera;
+  return {{"right", json_of(camera.right)},
+          {"down", json_of(camera.down)},
+          {"forward", json_of(camera.forward)},
+          {"distance", camera.look_at_distance},
+          {"focal", camera.focal_pixels},
+          {"width", frame.width},
+          {"height", frame.height},
+          {"flat", frame.projection == Projection::orthographic}};
+}
+
+// What light becomes when white is balanced, column by column. What it does with (1, 1, 1) is
+// added, so that nothing is below 0.
+Json balance_of(const FinishSettings& finish) {
+  Image image(4, 1);
+  for (int x = 0; x < 4; ++x) {
+    for (int c = 0; c < 3; ++c)
+      image.at(x, 0)[c] = x == c ? 2.0F : 1.0F;
+  }
+  if (finish.white_balance) balance_white(image, *finish.white_balance);
+  Json columns = Json::array();
+  for (int x = 0; x < 3; ++x) {
+    for (int c = 0; c < 3; ++c)
+      columns.push_back(image.at(x, 0)[c] - image.at(3, 0)[c]);
+  }
+  return columns;
+}
+
+Json finish_of(const WebPage& page) {
+  const FinishSettings& finish = page.finish;
+  return {{"gain", std::exp2(finish.exposure.value_or(0))},
+          {"white", finish.white.value_or(1)},
+          {"tone", static_cast<int>(finish.tone)},
+          {"balance", balance_of(finish)},
+          {"highlights", finish.highlights},
+          {"saturation", finish.saturation},
+          {"contrast", finish.contrast},
+          {"pivot", finish.contrast_pivot},
+          {"bloom", finish.bloom},
+          {"gamma", page.gamma}};
+}
+
+Json splats_of(const PackedSplats& splats) {
+  return {{"count", splats.count()},
+          {"lower", splats.lower},
+          {"upper", splats.upper},
+          {"sigma", {splats.least_sigma, splats.most_sigma}},
+          {"light", {splats.least_light, splats.most_light}}};
+}
+
+std::vector<std::string> about(const WebPage& page, const PackedSplats& splats) {
+  return {fmt::format("{} splats of light stand for {} particles.", splats.count(), page.particles),
+          fmt::format(
+              "Seen from where the page begins, merging and packing them changes the light by "
+              "{:.2g} of white (root mean square), {:.2g} at most, as splotchcl draws both with "
+              "this page's pixels.",
+              page.rms_difference, page.largest_difference),
+          "Each pixel sees a Gaussian half a pixel wide. Clouds around the camera fade."};
+}
+
+std::string_view text_of(std::string_view name) {
+  const auto& files = embedded::published_page();
+  return std::find_if(files.begin(), files.end(),
+                      [&](const auto& file) { return file.name == name; })
+      ->text;
+}
+
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char letter : text) {
+    switch (letter) {
+      case '<':
+        safe += "&lt;";
+        break;
+      case '&':
+        safe += "&amp;";
+        break;
+      default:
+        safe += letter;
+    }
+  }
+  return safe;
+}
+
+// Inside a script no text may end it.
+std::string inside_script(const Json& json) {
+  std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at))
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+// In the places of the page's own text: what is put there may hold anything.
+std::string put(std::string_view page,
+                const std::vector<std::pair<std::string_view, std::string>>& texts) {
+  std::string made;
+  for (std::size_t at = 0; at < page.size();) {
+    const auto found = std::find_if(texts.begin(), texts.end(), [&](const auto& text) {
+      return page.substr(at, text.first.size()) == text.first;
+    });
+    made += found == texts.end() ? std::string(1, page[at]) : found->second;
+    at += found == texts.end() ? 1 : found->first.size();
+  }
+  return made;
+}
+
+}  // namespace
+
+void check_page(const Frame& frame) {
+  if (frame.projection != Projection::perspective && frame.projection != Projection::orthographic) {
+    throw UsageError(
+        "publish: found a projection of wide angles, expected camera.projection perspective or "
+        "orthographic");
+  }
+  if (choose_light(frame) == LightPlan::ordered) {
+    throw UsageError(
+        "publish: found matter whose order along the view counts, expected light that adds up: no "
+        "absorption, or the same in all components as what they emit (component.NAME.absorption = "
+        "\"none\")");
+  }
+  const FramePlan plan = make_plan(frame);
+  const auto& source = plan.source;
+  if (plan.light == LightPlan::proportional && (source[0] != source[1] || source[0] != source[2])) {
+    throw UsageError(
+        "publish: found channels whose light over absorption differs, expected the same in red, "
+        "green and blue");
+  }
+}
+
+Frame as_on_page(const Frame& frame) {
+  Frame shown = frame;
+  // A pixel's own area has a variance of a twelfth.
+  shown.kernel.footprint_pixels =
+      std::max(frame.kernel.footprint_pixels,
+               std::sqrt(page_footprint_pixels * page_footprint_pixels - 1.0 / 12));
+  shown.kernel.min_radius_pixels = 0;
+  shown.kernel.cut.reset();
+  shown.kernel.sampling = Sampling::mean;
+  shown.crop = {0, 0, frame.width, frame.height};
+  return shown;
+}
+
+Frame as_on_page(const Frame& frame, const std::vector<LightSplat>& splats) {
+  Frame shown = as_on_page(frame);
+  const auto width = static_cast<float>(frame.kernel.width);
+  std::vector<float> position, h, color;
+  for (const LightSplat& splat : splats) {
+    position.insert(position.end(), splat.place.begin(), splat.place.end());
+    color.insert(color.end(), splat.light.begin(), splat.light.end());
+    h.push_back(splat.sigma / width);
+  }
+  DrawnComponent component;
+  component.name = "splats";
+  component.particles.count = splats.size();
+  component.particles.origin = look_at_point(frame.camera);
+  component.particles.position = Column::owning(std::move(position));
+  component.particles.smoothing_length = Column::owning(h);
+  component.particles.color_vector = Column::owning(std::move(color));
+  // The column is a factor over h.
+  component.weight = WeightModel::constant;
+  component.particles.weight = Column::owning(std::move(h));
+  component.palette = {"white", {{1, 1, 1}}, {}};
+  const double source = source_of(frame);
+  component.absorption = source > 0 ? Absorption{Absorption::Kind::factor, 1 / source}
+                                    : Absorption{Absorption::Kind::none, 0};
+  shown.components = {component};
+  return shown;
+}
+
+std::string make_web_page(const WebPage& page, const Frame& frame, const PackedSplats& splats) {
+  const Json settings = {{"title", page.title},         {"unit", page.unit},
+                         {"camera", camera_of(frame)},  {"background", frame.background},
+                         {"source", source_of(frame)},  {"footprint", page_footprint_pixels},
+                         {"finish", finish_of(page)},   {"splats", splats_of(splats)},
+                         {"about", about(page, splats)}};
+  const auto file = [](std::string_view name) { return std::string(text_of(name)); };
+  return put(text_of("index.html"), {{"{{title}}", escaped(page.title)},
+                                     {"{{style}}", file("style.css")},
+                                     {"{{settings}}", inside_script(settings)},
+                                     {"{{camera}}", file("camera.js")},
+                                     {"{{picture}}", file("picture.js")},
+                                     {"{{page}}", file("page.js")},
+                                     {"{{splats}}", as_text(splats)}});
+}
+
+}  // namespace splotchcl
