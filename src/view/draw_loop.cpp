@@ -29,6 +29,14 @@ ViewDrawer::Options with_go_on(ViewDrawer::Options options, std::function<bool()
   return options;
 }
 
+// A snapshot's picture whose size nobody has chosen.
+bool fills_window(const ViewDrawer& drawer) {
+  const Scene* const suggested = drawer.suggested();
+  if (suggested == nullptr) return false;
+  const ImageSettings &now = drawer.opened().image, &chosen = suggested->image;
+  return now.width == chosen.width && now.height == chosen.height;
+}
+
 }  // namespace
 
 DrawLoop::Page::Page(SendToPage to_page, std::uint64_t particles)
@@ -37,7 +45,8 @@ DrawLoop::Page::Page(SendToPage to_page, std::uint64_t particles)
 DrawLoop::DrawLoop(SceneWithSnapshot source, ViewDrawer::Options options,
                    std::vector<std::string>& notes)
     : drawer_(std::move(source), with_go_on(std::move(options), [this] { return go_on(); }), notes),
-      description_(describe_scene(drawer_.opened(), *drawer_.snapshot_of(drawer_.opened()))),
+      description_(describe_scene(drawer_.opened(), *drawer_.snapshot_of(drawer_.opened()),
+                                  fills_window(drawer_))),
       thread_([this] { run(); }) {}
 
 DrawLoop::~DrawLoop() {

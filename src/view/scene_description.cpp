@@ -202,7 +202,7 @@ std::string stem_of(const Snapshot& snapshot) {
 
 }  // namespace
 
-std::string describe_scene(const Scene& opened, const Snapshot& snapshot) {
+std::string describe_scene(const Scene& opened, const Snapshot& snapshot, bool fills_window) {
   const SnapshotInfo& info = snapshot.info();
   Json json = {{"type", "opened"},
                {"name", info.files.front().filename().string()},
@@ -210,6 +210,7 @@ std::string describe_scene(const Scene& opened, const Snapshot& snapshot) {
                {"components", components_json(opened, snapshot)},
                {"palettes", palettes_json(opened)},
                {"keyframes", keyframes_json(opened)},
+               {"fills_window", fills_window},
                {"has_path", opened.path.is_set()},
                {"scene_file", stem_of(snapshot) + "_view.toml"},
                {"picture_file", stem_of(snapshot) + "_view.png"}};

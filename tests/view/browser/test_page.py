@@ -2,12 +2,14 @@
 
 import base64
 import json
+import math
 import os
 import time
 from pathlib import Path
 
 import pytest
 
+np = pytest.importorskip("numpy")
 pytest.importorskip("selenium", reason="python3-selenium is missing; scripts/setup --browser installs it")
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
@@ -272,13 +274,97 @@ def test_help_opens_with_a_question_mark(page):
     page.find("Close help").click()
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_it_is_a_light_and_a_dark_page(page, scheme):
-    page.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {
-        "features": [{"name": "prefers-color-scheme", "value": scheme}]})
-    color = page.script("getComputedStyle(document.body).backgroundColor")
-    assert (int(color.split("(")[1].split(",")[0]) > 128) == (scheme == "light")
-    page.keep_screenshot(scheme)
+def test_it_is_dark_until_one_wants_it_light(page):
+    def brightness():
+        color = page.script("getComputedStyle(document.querySelector('header')).backgroundColor")
+        return int(color.split("(")[1].split(",")[0])
+
+    assert brightness() < 128
+    page.keep_screenshot("dark")
+    page.find("Light or dark page").click()
+    assert brightness() > 128
+    page.keep_screenshot("light")
+    page.browser.refresh()
+    page.wait_for_exact()
+    assert brightness() > 128
+    page.find("Light or dark page").click()
+
+
+def test_controls_fold_away_and_come_back(page):
+    page.find("Hide controls").click()
+    assert not page.browser.find_element(By.ID, "side").is_displayed()
+    page.find("Show controls").click()
+    page.find("Field of view")
+    page.find("Camera").click()
+    assert "Field of view" not in [c.accessible_name for c in page.browser.find_elements(By.TAG_NAME, "input")
+                                   if c.is_displayed()]
+
+
+def test_a_snapshots_picture_fills_the_window_and_the_scene_keeps_it(browser, view, snapshot):
+    page = Page(browser, view(snapshot))
+    window = page.script("[innerWidth, innerHeight]")
+    assert page.setting("image.size") == window
+    assert page.script("[app.picture.canvas.width, app.picture.canvas.height]") == window
+    # The shorter side shows what the suggested square did.
+    shorter = math.tan(math.radians(page.setting("camera.field_of_view") / 2)) * min(window) / window[0]
+    opened = math.tan(math.radians(page.script("app.store.opened.settings['camera.field_of_view']") / 2))
+    assert shorter == pytest.approx(opened, rel=1e-5)
+    assert not page.find("Undo").is_enabled()
+    page.keep_screenshot("filled")
+    page.type_number("Width in pixels", 200)
+    page.wait_for_exact()
+    assert page.setting("image.size") == [200, window[1]]
+    assert not page.find("Fill the window").is_selected()
+    browser.get("about:blank")
+
+
+def under(page, x, y):
+    """The point under a place of the picture, 0 to 1 each way, as far away as the look-at point."""
+    position, target, sky = (np.array(page.setting(f"camera.{key}"), float)
+                             for key in ("position", "look_at", "sky"))
+    distance = np.linalg.norm(target - position)
+    forward = (target - position) / distance
+    right = np.cross(forward, sky) / np.linalg.norm(np.cross(forward, sky))
+    width, height = page.setting("image.size")
+    side = 2 * distance * math.tan(math.radians(page.setting("camera.field_of_view") / 2))
+    return target + right * (x - 0.5) * side + np.cross(right, forward) * (0.5 - y) * side * height / width
+
+
+def test_the_wheel_moves_towards_what_is_under_the_pointer(page):
+    x, y = 0.7, 0.3
+    before, distance = under(page, x, y), page.script("app.gestures.camera.position[2]")
+    page.script(f"""(() => {{
+        const {{canvas}} = app.picture, box = canvas.getBoundingClientRect();
+        const width = app.picture.shownWidth, height = width * canvas.height / canvas.width;
+        document.getElementById('view').dispatchEvent(new WheelEvent('wheel', {{
+            deltaY: -240, bubbles: true, cancelable: true,
+            clientX: box.left + (box.width - width) / 2 + {x} * width,
+            clientY: box.top + (box.height - height) / 2 + {y} * height}})); }})()""")
+    page.wait_for_exact()
+    assert page.script("app.gestures.camera.position[2]") != distance
+    side = np.linalg.norm(under(page, 1, 0.5) - under(page, 0, 0.5))
+    assert np.linalg.norm(under(page, x, y) - before) < 1e-3 * side
+
+
+def test_two_fingers_move_closer(page):
+    def distance():
+        return np.linalg.norm(np.subtract(page.setting("camera.position"), page.setting("camera.look_at")))
+
+    def touch(kind, *places):
+        points = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(places)]
+        page.browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    before = distance()
+    touch("touchStart", (400, 300), (440, 300))
+    for step in range(1, 6):
+        touch("touchMove", (400 - 10 * step, 300), (440 + 10 * step, 300))
+    touch("touchEnd")
+    page.wait_for_exact()
+    # From 40 to 140 pixels apart.
+    assert distance() == pytest.approx(before * 40 / 140, rel=0.02)
+    page.find("Undo").click()
+    page.wait_for_exact()
+    assert distance() == pytest.approx(before)
 
 
 def test_a_page_without_the_token_shows_nothing(browser, view):

@@ -8,9 +8,16 @@ import {Picture} from './picture.js';
 import {SaveDialog} from './save_dialog.js';
 import {cameraControls, lightControls, pictureControls, timeControls} from './scene_controls.js';
 import {Store} from './store.js';
+import {WindowFit} from './window_fit.js';
 
 const byId = (id) => document.getElementById(id);
 const memory = `splotchcl ${location.pathname}`;
+
+function showTheme(theme) {
+  document.documentElement.dataset.theme = theme;
+  localStorage.setItem('splotchcl theme', theme);
+}
+showTheme(localStorage.getItem('splotchcl theme') ?? 'dark');
 
 class App {
   constructor() {
@@ -38,11 +45,12 @@ class App {
     this.store = new Store(opened, JSON.parse(sessionStorage.getItem(memory)));
     this.gestures = new Gestures(byId('view'), this.picture, this.store, (place) => this.pick(place));
     const move = (kind, x, y) => this.gestures.move(kind, x, y);
+    this.fit = new WindowFit(this.store);
     this.components = opened.components.map(
         (_, number) => new ComponentControls(number, opened, this.store, this.link));
     this.keyframes = new KeyframeControls(this.store, (frame, isPlaying) => this.showFilm(frame, isPlaying));
     this.controls = [cameraControls(this.store, move), ...this.components, lightControls(this.store),
-                     this.keyframes, pictureControls(this.store)];
+                     this.keyframes, pictureControls(this.store, this.fit)];
     if (opened.times) this.controls.splice(1, 0, timeControls(this.store, opened.times));
     byId('controls').replaceChildren(...this.controls.map((controls) => controls.element));
     byId('controls').onsubmit = (event) => event.preventDefault();
@@ -50,6 +58,7 @@ class App {
     for (const component of this.components) {
       component.element.addEventListener('focusin', () => { this.active = component; });
     }
+    if (matchMedia('(max-width: 700px)').matches) this.fold();
     this.save = new SaveDialog(this.link, opened);
     this.listen();
     this.show();
@@ -62,9 +71,19 @@ class App {
     byId('redo').onclick = () => this.store.redo();
     byId('save-scene').onclick = () => this.save.open('save_scene');
     byId('save-picture').onclick = () => this.save.open('save_picture');
+    byId('fold').onclick = () => this.fold();
+    byId('theme').onclick = () => showTheme(document.documentElement.dataset.theme === 'light' ? 'dark' : 'light');
     byId('help').onclick = () => byId('help-dialog').showModal();
     byId('view').addEventListener('keydown', (event) => this.pressLetter(event));
     document.addEventListener('keydown', (event) => this.pressShortcut(event));
+  }
+
+  // The controls, away or back.
+  fold() {
+    const isFolded = document.body.classList.toggle('folded');
+    const name = isFolded ? 'Show controls' : 'Hide controls';
+    byId('fold').setAttribute('aria-label', name);
+    byId('fold').title = name;
   }
 
   changed() {
@@ -127,6 +146,7 @@ class App {
       M: () => this.active.nextPalette(-1),
       r: () => this.active.range?.focus(),
       k: () => this.keyframes.add(),
+      o: () => this.fold(),
       s: () => this.save.open('save_scene'),
       p: () => this.save.open('save_picture'),
     };

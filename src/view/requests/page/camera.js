@@ -48,6 +48,14 @@ export function dolly(camera, factor) {
   return {'camera.position': add(camera.lookAt, offset)};
 }
 
+// The same, and what lies at a place of the picture, 0 to 1 each way, stays there, as far away as the
+// look-at point. `shape` is the picture's height over its width.
+export function dollyTowards(camera, factor, place, shape) {
+  const nearer = {...camera, position: dolly(camera, factor)['camera.position']};
+  const part = (1 - factor) / factor;
+  return pan(nearer, (0.5 - place.x) * part, (place.y - 0.5) * shape * part);
+}
+
 // The point comes into the middle, without turning the camera.
 export function recenter(camera, point) {
   return moved(camera, subtract(point, camera.lookAt));

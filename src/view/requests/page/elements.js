@@ -48,6 +48,13 @@ export function checkbox(word, name, onchange) {
   return {box, label: element('label', {}, box, word)};
 }
 
+// With a heading that folds it away.
 export function group(name, ...children) {
-  return element('fieldset', {}, element('legend', {}, name), ...children);
+  const heading = element('button', {type: 'button', className: 'fold', 'aria-expanded': 'true'}, name);
+  const made = element('fieldset', {}, element('legend', {}, heading), ...children);
+  heading.onclick = () => {
+    const isFolded = made.classList.toggle('folded');
+    heading.setAttribute('aria-expanded', String(!isFolded));
+  };
+  return made;
 }

@@ -1,5 +1,5 @@
 // What the pointer and the keys do over the picture.
-import {cameraOf, dolly, fly, lookAround, orbit, pan, recenter} from './camera.js';
+import {cameraOf, dolly, dollyTowards, fly, lookAround, orbit, pan, recenter} from './camera.js';
 
 const keyOrbit = Math.PI / 24;  // radians
 const keyPan = 0.05;            // of the picture's width
@@ -7,6 +7,7 @@ const keyDolly = 1.15;
 const turnPerWidth = Math.PI;   // a drag across the picture
 const wheelPerDolly = 600;      // pixels of the wheel for a factor of e
 const wheelRestMilliseconds = 250;
+const recenterMilliseconds = 280;
 const flySpeed = 0.6;           // distances to the look-at point in a second
 const fastFlight = 4;
 const flightKeys = {KeyW: [0, 0, 1], KeyS: [0, 0, -1], KeyD: [1, 0, 0], KeyA: [-1, 0, 0],
@@ -22,6 +23,7 @@ export class Gestures {
     this.drags = 0;
     this.isFlying = false;
     this.held = new Set();
+    this.pointers = new Map();
     this.listen();
   }
 
@@ -46,7 +48,28 @@ export class Gestures {
 
   async recenterAt(place) {
     const point = await this.pick(place);
-    if (point) this.store.change(recenter(this.camera, point));
+    if (point) this.glide(this.camera, recenter(this.camera, point));
+  }
+
+  // From where the camera is to where it shall be, as one step.
+  glide(from, to) {
+    if (matchMedia('(prefers-reduced-motion: reduce)').matches) return this.store.change(to);
+    const gesture = `glide ${++this.drags}`, start = performance.now(), drags = this.drags;
+    const tick = (now) => {
+      if (drags !== this.drags) return;  // something else moves the camera
+      const part = Math.min(1, (now - start) / recenterMilliseconds);
+      if (part === 1) {
+        this.store.change(to, {gesture, isMoving: true});
+        return this.store.rest();
+      }
+      const eased = part * part * (3 - 2 * part);
+      const between = (a, b) => a.map((x, i) => x + (b[i] - x) * eased);
+      this.store.change({'camera.position': between(from.position, to['camera.position']),
+                         'camera.look_at': between(from.lookAt, to['camera.look_at'])},
+                        {gesture, isMoving: true});
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
   }
 
   listen() {
@@ -67,23 +90,42 @@ export class Gestures {
     if (event.button > 2) return;
     this.view.focus();
     this.view.setPointerCapture(event.pointerId);
+    this.pointers.set(event.pointerId, event);
+    if (this.pointers.size > 1) return;  // a second finger joins
     const gesture = `drag ${++this.drags}`;
     const isPan = event.button !== 0 || event.shiftKey;
-    let last = event;
     const move = (now) => {
-      const width = this.picture.shownWidth;
-      const right = (now.clientX - last.clientX) / width, down = (now.clientY - last.clientY) / width;
-      last = now;
-      if (right !== 0 || down !== 0) {
+      if (!this.pointers.has(now.pointerId)) return;
+      const before = this.fingers();
+      this.pointers.set(now.pointerId, now);
+      const after = this.fingers(), width = this.picture.shownWidth;
+      const right = (after.x - before.x) / width, down = (after.y - before.y) / width;
+      if (this.pointers.size > 1) {
+        const camera = {...this.camera, ...placed(pan(this.camera, right, -down))};
+        this.store.change({...pan(this.camera, right, -down), ...dolly(camera, before.apart / after.apart)},
+                          {gesture, isMoving: true});
+      } else if (right !== 0 || down !== 0) {
         this.store.change(this.dragged(isPan, right, down), {gesture, isMoving: true});
       }
     };
-    const end = () => {
+    const end = (now) => {
+      this.pointers.delete(now.pointerId);
+      if (this.pointers.size > 0) return;
       this.view.removeEventListener('pointermove', move);
+      this.view.removeEventListener('lostpointercapture', end);
       this.store.rest();
     };
     this.view.addEventListener('pointermove', move);
-    this.view.addEventListener('lostpointercapture', end, {once: true});
+    this.view.addEventListener('lostpointercapture', end);
+  }
+
+  // The middle of those that are down, and how far the first two are apart.
+  fingers() {
+    const all = [...this.pointers.values()];
+    const mean = (of) => all.reduce((sum, finger) => sum + of(finger), 0) / all.length;
+    const [a, b = a] = all;
+    return {x: mean((f) => f.clientX), y: mean((f) => f.clientY),
+            apart: Math.max(1, Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY))};
   }
 
   dragged(isPan, right, down) {
@@ -96,7 +138,9 @@ export class Gestures {
   turnWheel(event) {
     event.preventDefault();
     const pixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? event.deltaY : 30 * event.deltaY;
-    this.store.change(dolly(this.camera, Math.exp(pixels / wheelPerDolly)),
+    const place = this.picture.placeOf(event) ?? {x: 0.5, y: 0.5};
+    const {width, height} = this.picture.canvas;
+    this.store.change(dollyTowards(this.camera, Math.exp(pixels / wheelPerDolly), place, height / width),
                       {gesture: 'wheel', isMoving: true});
     clearTimeout(this.wheelRest);
     this.wheelRest = setTimeout(() => this.store.rest(), wheelRestMilliseconds);
@@ -155,4 +199,8 @@ export class Gestures {
     }
     this.store.change(fly(this.camera, right, up, forward), {gesture, isMoving: true});
   }
+}
+
+function placed(settings) {
+  return {position: settings['camera.position'], lookAt: settings['camera.look_at']};
 }

@@ -98,12 +98,16 @@ export function lightControls(store) {
   return controls;
 }
 
-export function pictureControls(store) {
+export function pictureControls(store, fit) {
   const controls = new Controls('Picture to save', store);
+  const {box, label} = checkbox('Fill the window', 'Fill the window', (value) => fit.set(value));
+  controls.element.append(element('div', {}, label));
+  controls.shows.push(() => { box.checked = fit.isOn; });
   ['Width', 'Height'].forEach((word, i) => {
     const set = (value) => {
       const size = [...store.settings['image.size']];
       size[i] = Math.round(value);
+      fit.set(false);
       store.change({'image.size': size}, {gesture: 'image.size'});
     };
     const input = numberInput(`${word} in pixels`, set, {min: 1, max: 65536, step: 1});

@@ -73,6 +73,12 @@ export class Store extends EventTarget {
     this.dispatchEvent(new Event('decided'));
   }
 
+  // What follows the window. No step of its own, and undo does not go back behind it.
+  fit(settings) {
+    for (const state of [this.state, ...this.past, ...this.future]) Object.assign(state.settings, settings);
+    this.tell();
+  }
+
   undo() { this.step(this.past, this.future); }
   redo() { this.step(this.future, this.past); }
 
