@@ -268,6 +268,23 @@ def test_two_hundred_moves_end_with_the_last_one_drawn(page):
     assert page.last_state > 10
 
 
+def test_scene_and_picture_can_be_downloaded(page, run, snapshot, tmp_path):
+    page.browser.execute_cdp_cmd("Browser.setDownloadBehavior",
+                                 {"behavior": "allow", "downloadPath": str(tmp_path)})
+    page.find("Orbit left").click()
+    page.wait_for_exact()
+    for button in ("Save scene", "Save picture"):
+        page.find(button).click()
+        page.find("Download").click()
+        WebDriverWait(page.browser, PATIENCE).until(
+            lambda _: "Downloading" in page.browser.find_element(By.ID, "save-answer").text)
+        page.find("Close").click()
+    scene, picture = tmp_path / "universe_view.toml", tmp_path / "universe_view.png"
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: scene.exists() and picture.exists())
+    run("render", scene, "-o", tmp_path / "drawn.png", "--set", f'snapshot="{snapshot}"')
+    run("compare", picture, tmp_path / "drawn.png", "--limit", 0)
+
+
 def test_help_opens_with_a_question_mark(page):
     page.find("Picture").send_keys("?")
     assert page.find("Keys and pointer").is_displayed()

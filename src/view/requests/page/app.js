@@ -59,7 +59,7 @@ class App {
       component.element.addEventListener('focusin', () => { this.active = component; });
     }
     if (matchMedia('(max-width: 700px)').matches) this.fold();
-    this.save = new SaveDialog(this.link, opened);
+    this.save = new SaveDialog(this.link, opened, byId('picture'));
     this.listen();
     this.show();
   }

@@ -1,12 +1,14 @@
-// Saves the scene or the picture where the program runs, after showing what has changed.
+// Saves the scene or the picture where the program runs, after showing what has changed; or gives
+// the browser the scene, or the picture that the page shows.
 import {element} from './elements.js';
 import {lineChanges} from './line_changes.js';
 
 const byId = (id) => document.getElementById(id);
 
 export class SaveDialog {
-  constructor(link, opened) {
+  constructor(link, opened, canvas) {
     this.link = link;
+    this.canvas = canvas;
     this.paths = {save_scene: opened.scene_file, save_picture: opened.picture_file};
     this.dialog = byId('save-dialog');
     byId('save-close').onclick = () => this.dialog.close();
@@ -14,6 +16,7 @@ export class SaveDialog {
       event.preventDefault();
       this.save();
     };
+    byId('save-download').onclick = () => this.download();
     byId('save-path').oninput = () => this.mayReplace(false);
   }
 
@@ -50,6 +53,29 @@ export class SaveDialog {
   mayReplace(may) {
     this.replaces = may;
     byId('save-go').textContent = may ? 'Replace file' : 'Save file';
+  }
+
+  async download() {
+    const answer = byId('save-answer');
+    try {
+      const file = this.type === 'save_scene'
+        ? new Blob([(await this.link.ask({type: 'scene_text'})).now], {type: 'application/toml'})
+        : await this.picture();
+      const name = this.paths[this.type].split('/').pop().replace(/\.[^.]*$/, '');
+      const link = element('a', {href: URL.createObjectURL(file),
+                                 download: name + (this.type === 'save_scene' ? '.toml' : '.png')});
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+      answer.textContent = `Downloading ${link.download}`;
+    } catch (error) {
+      answer.textContent = error.message;
+    }
+  }
+
+  // The bits of the exact picture: a preview is not given away as one.
+  picture() {
+    if (document.body.dataset.stage !== 'exact') throw new Error('The exact picture is not drawn yet');
+    return new Promise((resolve) => { this.canvas.toBlob(resolve, 'image/png'); });
   }
 
   async save() {
