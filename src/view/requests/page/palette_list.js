@@ -12,12 +12,14 @@ export class PaletteList {
     this.gamma = gamma;
     this.choose = choose;
     this.choices = new Map();
-    this.group = element('div', {className: 'palettes', role: 'radiogroup', 'aria-label': `Palettes of ${name}`});
+    this.group = element('div', {className: 'palettes'});
     this.element = element('details', {className: 'wide'}, element('summary', {}, 'All palettes'), this.group);
     this.element.addEventListener('toggle', () => this.show());
   }
 
   make() {
+    this.group.setAttribute('role', 'radiogroup');
+    this.group.setAttribute('aria-label', `Palettes of ${this.name}`);
     for (const palette of this.palettes.keys()) {
       const radio = element('input', {type: 'radio', name: `palettes of ${this.name}`,
                                       'aria-label': `${palette} for ${this.name}`});

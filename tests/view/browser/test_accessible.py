@@ -1,0 +1,48 @@
+"""axe-core finds nothing against the live view and published pages."""
+
+import subprocess
+import sys
+import zipfile
+
+import pytest
+
+from test_page import Page
+
+
+@pytest.fixture(scope="module")
+def axe(tmp_path_factory) -> str:
+    """axe-core, as a package index has it."""
+    folder = tmp_path_factory.mktemp("axe")
+    command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--timeout", "20", "--retries", "1",
+               "--dest", str(folder), "axe-core-python"]
+    if subprocess.run(command, capture_output=True, check=False).returncode != 0:
+        pytest.skip("no package index can be reached that has axe-core-python")
+    with zipfile.ZipFile(next(folder.glob("*.whl"))) as wheel:
+        return wheel.read("axe_core_python/axe.min.js").decode()
+
+
+def violations(browser, axe):
+    browser.execute_script(axe)
+    found = browser.execute_async_script(
+        "const done = arguments[arguments.length - 1]; axe.run().then((found) => done(found.violations))")
+    return [(rule["id"], [node["html"] for node in rule["nodes"]]) for rule in found]
+
+
+def test_the_live_view_is_accessible(browser, view, axe):
+    page = Page(browser, view())
+    assert violations(browser, axe) == []
+    page.find("Light or dark page").click()
+    assert violations(browser, axe) == []
+    page.find("Light or dark page").click()
+    browser.find_element("tag name", "summary").click()
+    page.find("Help").click()
+    assert violations(browser, axe) == []
+    browser.get("about:blank")
+
+
+def test_a_published_page_is_accessible(browser, run, snapshot, tmp_path, axe):
+    run("publish", snapshot, "-o", tmp_path / "page.html", "--size", "64x64", "--splats", 100)
+    browser.get(f"file://{tmp_path}/page.html")
+    assert violations(browser, axe) == []
+    browser.find_element("id", "open-about").click()
+    assert violations(browser, axe) == []
