@@ -74,6 +74,11 @@ std::optional<Projected> project_cube_face(const Vec3& u, double distance,
 
 }  // namespace
 
+Vec3 along_axes(const Vec3& offset, const CameraFrame& camera) {
+  using boost::qvm::dot;
+  return {{dot(offset, camera.right), dot(offset, camera.down), dot(offset, camera.forward)}};
+}
+
 std::optional<Projected> project_point(const Vec3& from_camera, const CameraFrame& camera,
                                        Projection projection) {
   using namespace boost::qvm;
@@ -194,9 +199,7 @@ double stretch_of_area(const Projected& place, double sigma, const CameraFrame& 
 }
 
 Vec3 turn_axis_in_view(const CameraFrame& camera) {
-  using boost::qvm::dot;
-  return {{dot(camera.turn_axis, camera.right), dot(camera.turn_axis, camera.down),
-           dot(camera.turn_axis, camera.forward)}};
+  return along_axes(camera.turn_axis, camera);
 }
 
 double period_along_x(const CameraFrame& camera, Projection projection) {

@@ -20,6 +20,9 @@ struct Projected {
   double sine_latitude = 0;  // likewise, positive below the horizon
 };
 
+// An offset from the camera in lengths, along its right, down and forward axes.
+Vec3 along_axes(const Vec3& offset, const CameraFrame& camera);
+
 // `from_camera`: along the camera's right, down and forward axes. Nothing where the projection
 // cannot show the point, wherever the picture ends: behind a perspective camera or a cube's
 // face, or nearer than the eye's offset in stereo.

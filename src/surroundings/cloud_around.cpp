@@ -57,8 +57,7 @@ Vec3 from_camera(const DrawnComponent& component, const Frame& frame, std::size_
   Vec3 offset = particles.origin - frame.camera.position;
   for (std::size_t axis = 0; axis < 3; ++axis)
     offset.a[axis] += static_cast<double>(particles.position[3 * i + axis]);
-  return {{dot(offset, frame.camera.right), dot(offset, frame.camera.down),
-           dot(offset, frame.camera.forward)}};
+  return along_axes(offset, frame.camera);
 }
 
 // E w and A w (light_model.h, Absorption).

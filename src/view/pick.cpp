@@ -34,10 +34,8 @@ void add_candidates(const Frame& frame, const DrawnComponent& component, double 
     const Vec3 offset = {
         {particles.position[3 * i], particles.position[3 * i + 1], particles.position[3 * i + 2]}};
     const Vec3 position = particles.origin + offset;
-    const Vec3 seen = position - frame.camera.position;
-    const Vec3 along_axes = {{dot(seen, frame.camera.right), dot(seen, frame.camera.down),
-                              dot(seen, frame.camera.forward)}};
-    const auto place = project_point(along_axes, frame.camera, frame.projection);
+    const auto place = project_point(along_axes(position - frame.camera.position, frame.camera),
+                                     frame.camera, frame.projection);
     if (!place) continue;
     const double size = component.size_factor * particles.smoothing_length[i];
     const double radius = pointer + frame.kernel.width * size * place->pixels_per_length;

@@ -20,9 +20,7 @@ std::optional<PictureCloud> cloud_in_picture(const DrawnComponent& component, co
                         static_cast<double>(particles.position[3 * i + 2])}};
   const Vec3 from_camera = particles.origin - frame.camera.position + offset;
   const std::optional<Projected> place =
-      project_point({{dot(from_camera, frame.camera.right), dot(from_camera, frame.camera.down),
-                      dot(from_camera, frame.camera.forward)}},
-                    frame.camera, frame.projection);
+      project_point(along_axes(from_camera, frame.camera), frame.camera, frame.projection);
   if (!place) return std::nullopt;
   if (!is_within_limits(frame, place->depth, h)) return std::nullopt;
 
