@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/physical_constants.h"
+#include "formats/hdf5/hdf5_columns.h"
 #include "formats/hdf5/hdf5_units.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
@@ -75,17 +76,6 @@ std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribu
   return counts;
 }
 
-// What is at the root, for a message.
-std::vector<std::string> contents_of(const Hdf5File& file) {
-  std::vector<std::string> contents = file.groups("/");
-  for (const Hdf5Dataset& dataset : file.datasets("/")) {
-    contents.push_back(
-        fmt::format("{} ({}{})", dataset.label(), fmt::join(dataset.shape, " x "),
-                    dataset.kind == Hdf5Dataset::Kind::other ? ", no plain numbers" : ""));
-  }
-  return contents;
-}
-
 // One length for all axes, or one for each.
 std::optional<BoxSides> read_box_size(const Hdf5File& file) {
   auto sides = file.numbers("Header", "BoxSize");
@@ -108,11 +98,14 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   const auto counts = read_counts(file, "NumPart_ThisFile", notes);
   const bool has_header = file.numbers("Header", "NumPart_ThisFile").has_value();
   if (!has_header || counts.size() > most_types) {
+    constexpr std::size_t most_listed = 20;
+    const std::vector<std::string> contents = list_contents(file, most_listed);
     throw DataError(fmt::format(
-        "{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (it "
-        "holds: {}); expected a snapshot of Gadget or SWIFT, or datasets of positions at "
-        "its root or in its groups, of one number or three in each row: write it so",
-        file.path().string(), fmt::join(contents_of(file), ", ")));
+        "{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header, and no positions "
+        "whose names tell what they are (it holds: {}{}); say which they are, as in read.columns = "
+        "{{x = \"group/x\", y = \"group/y\", z = \"group/z\"}}",
+        file.path().string(), fmt::join(contents, ", "),
+        contents.size() == most_listed ? ", ..." : ""));
   }
   GadgetHeader header;
   header.counts = counts;
@@ -237,7 +230,7 @@ std::string group_name(std::size_t type) {
 }
 
 const char* columns_of(const Hdf5Dataset& dataset) {
-  if (dataset.kind == Hdf5Dataset::Kind::other) return "columns that are no numbers";
+  if (!dataset.is_number()) return "columns that are no numbers";
   return dataset.values_per_row() == 1 ? "column" : "columns";
 }
 
@@ -261,9 +254,8 @@ const char* columns_of(const Hdf5Dataset& dataset) {
 // The positions of a type; null where it has none.
 const Hdf5Dataset* find_positions(const std::vector<Hdf5Dataset>& datasets) {
   const auto found = std::find_if(datasets.begin(), datasets.end(), [](const Hdf5Dataset& dataset) {
-    return canonical_field_name(dataset.label()) == "position" &&
-           dataset.kind != Hdf5Dataset::Kind::other && !dataset.shape.empty() &&
-           dataset.values_per_row() == 3;
+    return canonical_field_name(dataset.label()) == "position" && dataset.is_number() &&
+           !dataset.shape.empty() && dataset.values_per_row() == 3;
   });
   return found == datasets.end() ? nullptr : &*found;
 }
@@ -334,7 +326,7 @@ std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader
   for (const Hdf5Dataset& dataset : file.datasets(group)) {
     const std::string label = dataset.label();
     const std::uint64_t values = dataset.values_per_row();
-    const bool is_usable = dataset.kind != Hdf5Dataset::Kind::other && (values == 1 || values == 3);
+    const bool is_usable = dataset.is_number() && (values == 1 || values == 3);
     if (dataset.shape.empty() || dataset.rows() != count) {
       of_other_lengths.push_back(fmt::format("{} ({})", label, dataset.rows()));
     } else if (!is_usable) {
