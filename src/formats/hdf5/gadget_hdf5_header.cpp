@@ -83,6 +83,17 @@ std::optional<BoxSides> read_box_size(const Hdf5File& file) {
   return sides ? box_of(*sides) : std::nullopt;
 }
 
+// What is a text that is no number says nothing to us.
+void note_texts(const Hdf5File& file, std::vector<std::string>& notes) {
+  for (const char* const name : {"BoxSize", "Time", "Redshift", "HubbleParam", "MassTable",
+                                 "Omega0", "OmegaLambda", "NumFilesPerSnapshot"}) {
+    const auto text = file.text("Header", name);
+    if (!text || file.numbers("Header", name)) continue;
+    notes.push_back(fmt::format("Header/{} is the text \"{}\", not a number: ignored", name,
+                                text->substr(0, 40)));
+  }
+}
+
 }  // namespace
 
 bool is_without_cosmology(const Hdf5File& file) {
@@ -107,6 +118,7 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
         file.path().string(), fmt::join(contents, ", "),
         contents.size() == most_listed ? ", ..." : ""));
   }
+  note_texts(file, notes);
   GadgetHeader header;
   header.counts = counts;
   constexpr std::size_t usual_types = 6;
@@ -314,37 +326,6 @@ void leave_out_tracers(const Hdf5File& file, GadgetHeader& header,
     notes.push_back(fmt::format("the tracers of {} are left out: they have no positions", group));
     leave_out(header, type);
   }
-}
-
-std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader& header, int type,
-                                        std::vector<std::string>& notes) {
-  const auto index = static_cast<std::size_t>(type);
-  const std::string group = group_name(index);
-  const std::uint64_t count = header.counts[index];
-  std::vector<Hdf5Field> fields;
-  std::vector<std::string> of_other_lengths, left_out;
-  for (const Hdf5Dataset& dataset : file.datasets(group)) {
-    const std::string label = dataset.label();
-    const std::uint64_t values = dataset.values_per_row();
-    const bool is_usable = dataset.is_number() && (values == 1 || values == 3);
-    if (dataset.shape.empty() || dataset.rows() != count) {
-      of_other_lengths.push_back(fmt::format("{} ({})", label, dataset.rows()));
-    } else if (!is_usable) {
-      left_out.push_back(label);
-    } else {
-      fields.push_back({label, static_cast<int>(values), dataset});
-    }
-  }
-  if (!of_other_lengths.empty()) {
-    notes.push_back(fmt::format("left out of {}, as they have other than {} rows: {}", group, count,
-                                fmt::join(of_other_lengths, ", ")));
-  }
-  if (!left_out.empty()) {
-    notes.push_back(
-        fmt::format("left out of {}, as they are not one or three numbers per particle: {}", group,
-                    fmt::join(left_out, ", ")));
-  }
-  return fields;
 }
 
 void count_rows_of_positions(const Hdf5File& file, GadgetHeader& header,

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "common/mapped_file.h"
+#include "common/words.h"
 #include "formats/snapshot_format.h"
 #include "splotchcl/error.h"
 
@@ -127,13 +128,15 @@ void add_members(hid_t type, const Hdf5Dataset& of, std::vector<Hdf5Dataset>& fo
   }
 }
 
-// A text of any length, which HDF5 allocates.
-std::optional<std::string> variable_text(hid_t attribute, hid_t type) {
-  char* text = nullptr;
-  if (H5Aread(attribute, type, &text) < 0 || text == nullptr) return std::nullopt;
-  std::string value = text;
-  H5free_memory(text);
-  return value;
+// None where one of them is no number.
+std::optional<std::vector<double>> numbers_in(const std::vector<std::string>& texts) {
+  std::vector<double> numbers;
+  for (const std::string& text : texts) {
+    const auto number = parse_number(trimmed(text));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers.empty() ? std::nullopt : std::optional(std::move(numbers));
 }
 
 }  // namespace
@@ -308,6 +311,7 @@ std::optional<std::vector<double>> Hdf5File::numbers(const std::string& object,
   if (!attribute.is_valid()) return std::nullopt;
   const Type type(H5Aget_type(attribute.id()));
   const H5T_class_t kind = H5Tget_class(type.id());
+  if (kind == H5T_STRING) return numbers_in(texts(attribute.id()));
   if (kind != H5T_FLOAT && kind != H5T_INTEGER) return std::nullopt;
   const Space space(H5Aget_space(attribute.id()));
   // Attributes live in object headers of at most 64 KiB or in dense storage; either way
@@ -325,20 +329,38 @@ std::optional<double> Hdf5File::number(const std::string& object, const std::str
   return values ? std::optional<double>(values->front()) : std::nullopt;
 }
 
+// An attribute's texts, of any length or of one.
+std::vector<std::string> Hdf5File::texts(hid_t attribute) const {
+  const Type type(H5Aget_type(attribute));
+  const Space space(H5Aget_space(attribute));
+  const auto count =
+      static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id())));
+  std::vector<std::string> texts;
+  if (H5Tis_variable_str(type.id()) > 0) {
+    std::vector<char*> pointers(count, nullptr);
+    if (count == 0 || H5Aread(attribute, type.id(), pointers.data()) < 0) return texts;
+    for (const char* const text : pointers)
+      texts.emplace_back(text == nullptr ? "" : text);
+    H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
+    return texts;
+  }
+  const std::size_t length = H5Tget_size(type.id());
+  std::string bytes(count * length, '\0');
+  if (bytes.empty() || H5Aread(attribute, type.id(), bytes.data()) < 0) return texts;
+  for (std::size_t begin = 0; begin < bytes.size(); begin += length)
+    texts.emplace_back(bytes.substr(begin, length).c_str());
+  return texts;
+}
+
 std::optional<std::string> Hdf5File::text(const std::string& object,
                                           const std::string& name) const {
   const Hdf5Silence silence;
   const Attribute attribute = open_attribute(object, name);
   if (!attribute.is_valid()) return std::nullopt;
   const Type type(H5Aget_type(attribute.id()));
-  const Space space(H5Aget_space(attribute.id()));
-  const bool is_one_text =
-      H5Tget_class(type.id()) == H5T_STRING && H5Sget_simple_extent_npoints(space.id()) == 1;
-  if (!is_one_text) return std::nullopt;
-  if (H5Tis_variable_str(type.id()) > 0) return variable_text(attribute.id(), type.id());
-  std::string value(H5Tget_size(type.id()), '\0');
-  if (H5Aread(attribute.id(), type.id(), value.data()) < 0) return std::nullopt;
-  return std::string(value.c_str());
+  if (H5Tget_class(type.id()) != H5T_STRING) return std::nullopt;
+  const std::vector<std::string> found = texts(attribute.id());
+  return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
 }  // namespace splotchcl

@@ -57,7 +57,8 @@ class Hdf5File {
   // The lines of a dataset of texts of one length; nothing where it is none.
   std::vector<std::string> lines(const std::string& path) const;
 
-  // A numeric attribute, scalar or array of any shape. None when it is absent or is text.
+  // A numeric attribute, scalar or array of any shape, also of texts that are numbers. None when it
+  // is absent or other text.
   std::optional<std::vector<double>> numbers(const std::string& object,
                                              const std::string& attribute) const;
   std::optional<double> number(const std::string& object, const std::string& attribute) const;
@@ -86,6 +87,7 @@ class Hdf5File {
   using Attribute = Hdf5Handle<H5Aclose>;
   using Dataset = Hdf5Handle<H5Dclose>;
   std::vector<std::string> children(const std::string& group, H5I_type_t wanted) const;
+  std::vector<std::string> texts(hid_t attribute) const;
   Attribute open_attribute(const std::string& object, const std::string& name) const;
   Dataset open_dataset(const std::string& path) const;
   // `depth`: how many virtual datasets it is a source of.
