@@ -9,8 +9,11 @@ namespace splotchcl {
 // How a snapshot is read for a scene: the keys of [read].
 struct ReadSettings {
   // Names for the columns of a text table or a plain NumPy array, in their order; "-" for one
-  // that is not needed. Empty: the file's own.
+  // that is not needed. Or NAME=COLUMN for each that the file calls by another name: in HDF5 the
+  // path of a dataset. Empty: the file's own.
   std::vector<std::string> columns;
+  // Lines at the beginning of a text table that are no part of it; >= 0.
+  int skip_lines = 0;
 
   // Parts of the particles, for a quick look: every N-th, or at most so many, chosen at random
   // by the seed. What is left is made brighter by as much as was left out.

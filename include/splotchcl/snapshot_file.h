@@ -13,8 +13,12 @@ namespace splotchcl {
 // What a file does not say of itself.
 struct SnapshotOptions {
   // Names for the columns of a text table or a plain NumPy array, in their order, instead of
-  // those in its header; "-" for a column that is not needed. Empty: the file's own.
+  // those in its header; "-" for a column that is not needed. Or NAME=COLUMN for each that the file
+  // calls by another name: in HDF5 NAME=PATH of a dataset, PATH:MEMBER of one of records, PATH:1
+  // for its first column. Empty: the file's own.
   std::vector<std::string> columns;
+  // Lines at the beginning of a text table that are no part of it.
+  int skip_lines = 0;
 };
 
 // Recognises the format by content (docs/formats.md). `path` may be any member or the base name of

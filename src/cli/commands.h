@@ -101,6 +101,7 @@ int run_path(const PathOptions& options, Console& console);
 struct SnapshotQuestion {
   std::filesystem::path snapshot;
   std::vector<std::string> columns;  // of a table
+  int skip_lines = 0;                // of a text table
   bool json = false;
 };
 

@@ -132,7 +132,7 @@ Json json_of_field(const NamedField& field) {
 }  // namespace
 
 int run_fields(const SnapshotQuestion& options, Console& console) {
-  const auto snapshot = open_snapshot(options.snapshot, {options.columns});
+  const auto snapshot = open_snapshot(options.snapshot, {options.columns, options.skip_lines});
   const std::vector<NamedField> fields = list_fields(*snapshot, console);
   if (options.json) {
     print_json_list(fields, json_of_field);

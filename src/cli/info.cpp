@@ -210,7 +210,7 @@ void print_text(const Snapshot& snapshot, bool header_only, Console& console) {
 }  // namespace
 
 int run_info(const InfoOptions& options, Console& console) {
-  const auto snapshot = open_snapshot(options.snapshot, {options.columns});
+  const auto snapshot = open_snapshot(options.snapshot, {options.columns, options.skip_lines});
   if (options.json) {
     print_json(to_json(*snapshot, options.header, console));
   } else {

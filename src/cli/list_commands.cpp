@@ -12,9 +12,14 @@ void add_snapshot_question(CLI::App& sub, SnapshotQuestion& options) {
   sub.add_option(
          "--columns", options.columns,
          wrapped(
-             "Names for the columns of a text table or a plain NumPy array, in order; - skips one"))
+             "Names for the columns of a text table or a plain NumPy array, in order; - skips one. "
+             "Or NAME=COLUMN for each that is called otherwise, in HDF5 NAME=DATASET"))
       ->type_name("NAME,...")
       ->delimiter(',');
+  sub.add_option("--skip-lines", options.skip_lines,
+                 wrapped("Lines at the beginning of a text table that are no part of it"))
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber);
   sub.add_flag("--json", options.json, wrapped("Print JSON"));
 }
 

@@ -22,14 +22,15 @@ struct HaloMembers {
   bool has_place(std::uint64_t place) const;
 };
 
-// Reads halo `number` of a catalog in HDF5: SUBFIND's or FOF's of Gadget-4 and AREPO (counted from
+// Reads halo `number` of a catalog: in HDF5 SUBFIND's or FOF's of Gadget-4 and AREPO (counted from
 // 0; the snapshot has its particles in the order of haloes), a membership file of SOAP
-// (GroupNr_bound of each particle), or VELOCIraptor's catalog_groups with the catalog_particles
-// beside it (counted from 1). `path` is any file of a catalog in several. Throws DataError.
+// (GroupNr_bound of each particle) or its halo_properties with that beside it, or VELOCIraptor's
+// catalog_groups with the catalog_particles beside it (counted from 1); as text AHF's or Rockstar's
+// (halo_lists.h). `path` is any file of a catalog in several. Throws DataError.
 HaloMembers read_halo(const std::filesystem::path& path, std::uint64_t number, int type);
 
-// SUBFIND's or FOF's catalog of a snapshot, by its usual name and place: beside the snapshot or in
-// a folder groups_NNN. None where there is none.
+// The catalog of a snapshot by its usual name and place: SUBFIND's or FOF's beside the snapshot or
+// in a folder groups_NNN, SOAP's membership file, AHF's particles. None where there is none.
 std::optional<std::filesystem::path> find_halo_catalog(const std::filesystem::path& snapshot);
 
 }  // namespace splotchcl

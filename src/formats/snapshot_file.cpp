@@ -97,8 +97,17 @@ const SnapshotFormat* find_format_of(const fs::path& path) {
                               path.string(), within->file.string()));
 }
 
+// Where lines are to be skipped the file is a text table, whatever these lines look like.
+const SnapshotFormat* text_format_of(const fs::path& path, const SnapshotFormat* found) {
+  const bool may_be_text = found == nullptr || found == &text_table_format();
+  if (may_be_text && fs::is_regular_file(path)) return &text_table_format();
+  throw UsageError(fmt::format(
+      "{}: read.skip_lines is for tables of text, but this is none; leave it out", path.string()));
+}
+
 std::unique_ptr<Snapshot> open_file(const fs::path& path, const SnapshotOptions& options) {
-  const SnapshotFormat* const format = find_format_of(path);
+  const SnapshotFormat* format = find_format_of(path);
+  if (options.skip_lines > 0) format = text_format_of(path, format);
   if (format != nullptr) {
     auto snapshot = format->open(path, options);
     if (!options.columns.empty() && !format->has_columns()) {
@@ -205,7 +214,8 @@ std::unique_ptr<Snapshot> open_snapshot(const fs::path& path, const SnapshotOpti
 
 std::unique_ptr<Snapshot> open_snapshot_for(const std::filesystem::path& path,
                                             const ReadSettings& read) {
-  std::unique_ptr<Snapshot> whole = open_snapshot(path, SnapshotOptions{read.columns});
+  std::unique_ptr<Snapshot> whole =
+      open_snapshot(path, SnapshotOptions{read.columns, read.skip_lines});
   if (read.every == 1 && !read.max_particles) return whole;
   return std::make_unique<SubsetSnapshot>(std::move(whole), read);
 }

@@ -34,6 +34,15 @@ NameAndUnit split_unit(const std::string& text) {
   return {text, ""};
 }
 
+std::optional<NamedColumn> split_named_column(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) return std::nullopt;
+  NamedColumn column = {without_joints(text.substr(0, equals), " \t"),
+                        without_joints(text.substr(equals + 1), " \t")};
+  if (column.name.empty() || column.source.empty()) return std::nullopt;
+  return column;
+}
+
 std::string vector_name(const std::string& column) {
   if (column.empty() || (column.back() != 'x' && column.back() != 'X')) return {};
   const std::string stem = without_joints(column.substr(0, column.size() - 1));

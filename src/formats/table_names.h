@@ -15,6 +15,13 @@ struct NameAndUnit {
 // "x [kpc]" is x in kpc.
 NameAndUnit split_unit(const std::string& text);
 
+// An entry of read.columns that names a column of the file anew: NAME=COLUMN. None where it is a
+// mere name.
+struct NamedColumn {
+  std::string name, source;
+};
+std::optional<NamedColumn> split_named_column(const std::string& text);
+
 // The vector whose first axis a column of this name is: "" where it is none. The names of the
 // three columns differ in their last letter only.
 std::string vector_name(const std::string& column);

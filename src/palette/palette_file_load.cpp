@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +16,7 @@
 #include "common/mapped_file.h"
 #include "common/words.h"
 #include "palette/palette_file.h"
+#include "palette/palette_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl_embedded/palettes.h"
@@ -45,15 +47,19 @@ std::optional<fs::path> own_folder() {
   return fs::path(value);
 }
 
+constexpr std::array<const char*, 11> endings = {".txt", ".pal", ".gpl", ".cpt",  ".act", ".lut",
+                                                 ".rgb", ".csv", ".sao", ".json", ".xml"};
+
 bool is_palette_file(const fs::path& path) {
   std::error_code ignored;
-  const bool is_named_so = path.extension() == ".txt" || path.extension() == ".pal";
+  const std::string ending = path.extension().string();
+  const bool is_named_so = std::find(endings.begin(), endings.end(), ending) != endings.end();
   return is_named_so && fs::is_regular_file(path, ignored);
 }
 
 // The path of a palette in the user's folder; empty where there is none.
 fs::path own_file(const fs::path& folder, const std::string& name) {
-  for (const char* ending : {".txt", ".pal"}) {
+  for (const char* const ending : endings) {
     const fs::path path = folder / (name + ending);
     if (is_palette_file(path)) return path;
   }
@@ -193,8 +199,13 @@ Palette load_palette(const std::string& name, const std::filesystem::path& relat
     return load_file(path, stem(name));
   }
   if (auto palette = find_named(name, folder)) return *palette;
-  if (const auto before = name_before_reversal(name)) {
+  const auto before = name_before_reversal(name);
+  if (before) {
     if (auto palette = find_named(*before, folder)) return reversed(std::move(*palette), name);
+  }
+  if (const auto ours = palette_named_otherwise(before.value_or(name), palette_names())) {
+    Palette palette = *find_built_in(*ours);
+    return before ? reversed(std::move(palette), name) : std::move(palette);
   }
   refuse("no such palette", name);
 }

@@ -1,4 +1,6 @@
+#include <cstdint>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "scene_file/key_builder.h"
@@ -6,19 +8,54 @@
 
 namespace splotchcl::scene_file {
 
+namespace {
+
+std::optional<std::string> name_and_column(const toml::key& name, const toml::node& node) {
+  if (name.str().empty() || name.str().find('=') != std::string_view::npos) return std::nullopt;
+  const std::string start = std::string(name.str()) + "=";
+  if (const auto number = node.value_exact<std::int64_t>()) return start + std::to_string(*number);
+  const auto column = node.value_exact<std::string>();
+  return column && !column->empty() ? std::optional(start + *column) : std::nullopt;
+}
+
+std::optional<std::vector<std::string>> read_column_table(const toml::table& table) {
+  std::vector<std::string> columns;
+  for (const auto& [name, node] : table) {
+    auto column = name_and_column(name, node);
+    if (!column) return std::nullopt;
+    columns.push_back(std::move(*column));
+  }
+  return columns.empty() ? std::nullopt : std::optional(std::move(columns));
+}
+
+// Names in their order, or what each name is in the file.
+ValueType<std::vector<std::string>> column_names() {
+  const ValueType<std::vector<std::string>> list = texts();
+  const auto read = [list](const toml::node& node) {
+    const toml::table* const table = node.as_table();
+    return table != nullptr ? read_column_table(*table) : list.read(node);
+  };
+  return {"an array of strings, or a table of strings by name", read, list.write};
+}
+
+}  // namespace
+
 Keys read_keys() {
   constexpr int most = 2147483647;
   constexpr int most_neighbors = 4096;
   return {
       key<ReadSettings, std::vector<std::string>>(
-          "read.columns", texts(),
+          "read.columns", column_names(),
           [](const ReadSettings& read) {
             return read.columns.empty() ? std::nullopt : std::optional(read.columns);
           },
           [](ReadSettings& read, const std::vector<std::string>& value) { read.columns = value; },
           {"Names for the columns of a text table or plain NumPy array, in order; `-` skips one. "
-           "See formats.md.",
+           "Or names for columns, arrays and HDF5's datasets that are called otherwise. See "
+           "formats.md.",
            "", "those in the file"}),
+      key("read.skip_lines", integer(0, most), &ReadSettings::skip_lines,
+          {"Lines at the beginning of a text table that are no part of it."}),
       excluding(key<ReadSettings, int>(
                     "read.every", integer(1, most),
                     [](const ReadSettings& read) {

@@ -54,11 +54,16 @@ std::optional<MemberName> parse_member_name(const fs::path& path) {
 }
 
 std::optional<PathInFile> path_in_file(const fs::path& path) {
-  std::error_code ignored;
-  const bool leads_into_file =
-      path.has_filename() && fs::is_regular_file(path.parent_path(), ignored);
-  if (!leads_into_file) return std::nullopt;
-  return PathInFile{path.parent_path(), path.filename().string()};
+  constexpr int deepest = 16;
+  fs::path group = path.filename(), file = path.parent_path();
+  for (int depth = 0; depth < deepest && !group.empty() && file.has_filename(); ++depth) {
+    std::error_code ignored;
+    if (fs::is_regular_file(file, ignored)) return PathInFile{file, group.string()};
+    if (fs::exists(file, ignored)) return std::nullopt;
+    group = file.filename() / group;
+    file = file.parent_path();
+  }
+  return std::nullopt;
 }
 
 std::vector<fs::path> find_members(const fs::path& member, int count) {

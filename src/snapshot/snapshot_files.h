@@ -23,7 +23,8 @@ struct MemberName {
 };
 std::optional<MemberName> parse_member_name(const std::filesystem::path& path);
 
-// A path that goes on within a file, to one of its groups: steps.h5/Step#3.
+// A path that goes on within a file, to one of its groups: steps.h5/Step#3,
+// openpmd.h5/data/100.
 struct PathInFile {
   std::filesystem::path file;
   std::string group;

@@ -19,6 +19,15 @@ inline std::vector<float> values_of(const Column& column) {
   return {column.data(), column.data() + column.size()};
 }
 
+// Positions of a type from 0, not from the snapshot's origin.
+inline std::vector<double> absolute_positions(const Snapshot& snapshot, int type) {
+  const Column offsets = snapshot.read(type, "position");
+  std::vector<double> values;
+  for (std::size_t i = 0; i < offsets.size(); ++i)
+    values.push_back(static_cast<double>(offsets[i]) + snapshot.position_origin().a[i % 3]);
+  return values;
+}
+
 inline std::vector<float> as_floats(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }

@@ -1,11 +1,15 @@
 #include "fuzz/fuzz.h"
 #include "palette/palette_file.h"
 
+// Some forms are told apart by their endings.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try {
-    splotchcl::parse_palette(std::string(reinterpret_cast<const char*>(data), size), "fuzz");
-  } catch (const splotchcl::Error&) {
-    // refused
+  const std::string content(reinterpret_cast<const char*>(data), size);
+  for (const char* const name : {"fuzz.txt", "fuzz.cpt", "fuzz.act", "fuzz.lut"}) {
+    try {
+      splotchcl::parse_palette(content, name);
+    } catch (const splotchcl::Error&) {
+      // refused
+    }
   }
   return 0;
 }

@@ -80,13 +80,15 @@ INSTANTIATE_TEST_SUITE_P(
                       Refused{"0 0 0 1 1 1\n0 0 0\n", "p.txt:2: found 3 numbers, expected 6 as"},
                       Refused{"0 0 1.01\n", "p.txt:1: found \"1.01\", expected a number from 0"},
                       Refused{"0 -0.1 1\n", "p.txt:1: found \"-0.1\""},
-                      Refused{"255 255 255\n", "p.txt:1: found \"255\""},
+                      Refused{"255 255 256\n", "p.txt:1: found \"256\""},
+                      Refused{"255 0.5 0\n", "p.txt:1: found \"255\""},
                       Refused{"nan 0 0\n", "p.txt:1: found \"nan\""},
                       Refused{"inf 0 0\n", "p.txt:1: found \"inf\""},
                       Refused{"1e99 0 0\n", "p.txt:1: found \"1e99\""},
                       Refused{"0.5x 0 0\n", "p.txt:1: found \"0.5x\""},
-                      Refused{"0, 0, 0\n", "p.txt:1: found \"0,\""},
-                      Refused{"red green blue\n", "p.txt:1: found \"red\""}));
+                      Refused{"red green blue\n", "p.txt: found no knots"},
+                      Refused{"0 0 0\nred green blue\n", "p.txt:2: found \"red\""},
+                      Refused{"0 0 0 0.5\n1 1 1 0.5\n0 0 0 1\n", "p.txt:1: found 4 numbers that"}));
 
 INSTANTIATE_TEST_SUITE_P(
     TheOriginals, PaletteFileRefuses,

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "formats/gadget/gadget_header.h"
+#include "formats/hdf5/gadget_hdf5_fields.h"
 #include "formats/hdf5/gadget_hdf5_header.h"
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_formats.h"
@@ -45,7 +46,7 @@ Hdf5Member read_hdf5_member(const std::filesystem::path& path, std::vector<std::
   for (std::size_t type = 0; type < member.header().counts.size(); ++type) {
     if (member.header().counts[type] == 0) continue;
     const auto number = static_cast<int>(type);
-    member.fields[number] = find_hdf5_fields(file, member.header(), number, notes);
+    member.fields[number] = find_hdf5_fields(file, member.header().counts[type], number, notes);
   }
   member.links = file.links();
   note_refused(member.links, notes);

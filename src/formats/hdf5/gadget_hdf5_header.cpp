@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/physical_constants.h"
+#include "formats/hdf5/hdf5_columns.h"
 #include "formats/hdf5/hdf5_units.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
@@ -75,22 +76,22 @@ std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribu
   return counts;
 }
 
-// What is at the root, for a message.
-std::vector<std::string> contents_of(const Hdf5File& file) {
-  std::vector<std::string> contents = file.groups("/");
-  for (const Hdf5Dataset& dataset : file.datasets("/")) {
-    contents.push_back(
-        fmt::format("{} ({}{})", dataset.label(), fmt::join(dataset.shape, " x "),
-                    dataset.kind == Hdf5Dataset::Kind::other ? ", no plain numbers" : ""));
-  }
-  return contents;
-}
-
 // One length for all axes, or one for each.
 std::optional<BoxSides> read_box_size(const Hdf5File& file) {
   auto sides = file.numbers("Header", "BoxSize");
   if (!sides) sides = file.numbers("Parameters", "BoxSize");
   return sides ? box_of(*sides) : std::nullopt;
+}
+
+// What is a text that is no number says nothing to us.
+void note_texts(const Hdf5File& file, std::vector<std::string>& notes) {
+  for (const char* const name : {"BoxSize", "Time", "Redshift", "HubbleParam", "MassTable",
+                                 "Omega0", "OmegaLambda", "NumFilesPerSnapshot"}) {
+    const auto text = file.text("Header", name);
+    if (!text || file.numbers("Header", name)) continue;
+    notes.push_back(fmt::format("Header/{} is the text \"{}\", not a number: ignored", name,
+                                text->substr(0, 40)));
+  }
 }
 
 }  // namespace
@@ -108,12 +109,16 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   const auto counts = read_counts(file, "NumPart_ThisFile", notes);
   const bool has_header = file.numbers("Header", "NumPart_ThisFile").has_value();
   if (!has_header || counts.size() > most_types) {
+    constexpr std::size_t most_listed = 20;
+    const std::vector<std::string> contents = list_contents(file, most_listed);
     throw DataError(fmt::format(
-        "{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header (it "
-        "holds: {}); expected a snapshot of Gadget or SWIFT, or datasets of positions at "
-        "its root or in its groups, of one number or three in each row: write it so",
-        file.path().string(), fmt::join(contents_of(file), ", ")));
+        "{}: the HDF5 file has no attribute NumPart_ThisFile in a group Header, and no positions "
+        "whose names tell what they are (it holds: {}{}); say which they are, as in read.columns = "
+        "{{x = \"group/x\", y = \"group/y\", z = \"group/z\"}}",
+        file.path().string(), fmt::join(contents, ", "),
+        contents.size() == most_listed ? ", ..." : ""));
   }
+  note_texts(file, notes);
   GadgetHeader header;
   header.counts = counts;
   constexpr std::size_t usual_types = 6;
@@ -237,7 +242,7 @@ std::string group_name(std::size_t type) {
 }
 
 const char* columns_of(const Hdf5Dataset& dataset) {
-  if (dataset.kind == Hdf5Dataset::Kind::other) return "columns that are no numbers";
+  if (!dataset.is_number()) return "columns that are no numbers";
   return dataset.values_per_row() == 1 ? "column" : "columns";
 }
 
@@ -261,9 +266,8 @@ const char* columns_of(const Hdf5Dataset& dataset) {
 // The positions of a type; null where it has none.
 const Hdf5Dataset* find_positions(const std::vector<Hdf5Dataset>& datasets) {
   const auto found = std::find_if(datasets.begin(), datasets.end(), [](const Hdf5Dataset& dataset) {
-    return canonical_field_name(dataset.label()) == "position" &&
-           dataset.kind != Hdf5Dataset::Kind::other && !dataset.shape.empty() &&
-           dataset.values_per_row() == 3;
+    return canonical_field_name(dataset.label()) == "position" && dataset.is_number() &&
+           !dataset.shape.empty() && dataset.values_per_row() == 3;
   });
   return found == datasets.end() ? nullptr : &*found;
 }
@@ -322,37 +326,6 @@ void leave_out_tracers(const Hdf5File& file, GadgetHeader& header,
     notes.push_back(fmt::format("the tracers of {} are left out: they have no positions", group));
     leave_out(header, type);
   }
-}
-
-std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader& header, int type,
-                                        std::vector<std::string>& notes) {
-  const auto index = static_cast<std::size_t>(type);
-  const std::string group = group_name(index);
-  const std::uint64_t count = header.counts[index];
-  std::vector<Hdf5Field> fields;
-  std::vector<std::string> of_other_lengths, left_out;
-  for (const Hdf5Dataset& dataset : file.datasets(group)) {
-    const std::string label = dataset.label();
-    const std::uint64_t values = dataset.values_per_row();
-    const bool is_usable = dataset.kind != Hdf5Dataset::Kind::other && (values == 1 || values == 3);
-    if (dataset.shape.empty() || dataset.rows() != count) {
-      of_other_lengths.push_back(fmt::format("{} ({})", label, dataset.rows()));
-    } else if (!is_usable) {
-      left_out.push_back(label);
-    } else {
-      fields.push_back({label, static_cast<int>(values), dataset});
-    }
-  }
-  if (!of_other_lengths.empty()) {
-    notes.push_back(fmt::format("left out of {}, as they have other than {} rows: {}", group, count,
-                                fmt::join(of_other_lengths, ", ")));
-  }
-  if (!left_out.empty()) {
-    notes.push_back(
-        fmt::format("left out of {}, as they are not one or three numbers per particle: {}", group,
-                    fmt::join(left_out, ", ")));
-  }
-  return fields;
 }
 
 void count_rows_of_positions(const Hdf5File& file, GadgetHeader& header,

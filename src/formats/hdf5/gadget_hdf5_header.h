@@ -36,19 +36,6 @@ std::optional<Cosmology> read_cosmology(const Hdf5File& file, const GadgetHeader
 // The units the file states; zeros where it states none.
 BaseUnits read_base_units(const Hdf5File& file);
 
-// A dataset of a particle type that can be a field.
-struct Hdf5Field {
-  std::string label;  // the dataset's name in its group
-  int values_per_particle = 1;
-  Hdf5Dataset dataset;
-};
-
-// The fields of group PartType<type>. Datasets that are neither numbers nor have one or
-// three values per particle, and those that have not a row for each, are left out and named in
-// `notes`.
-std::vector<Hdf5Field> find_hdf5_fields(const Hdf5File& file, const GadgetHeader& header, int type,
-                                        std::vector<std::string>& notes);
-
 // Where the header counts no particles at all, takes the numbers of rows of the positions, with
 // a note.
 void count_rows_without_header(const Hdf5File& file, GadgetHeader& header,

@@ -9,6 +9,7 @@
 #include "common/mapped_file.h"
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_file.h"
+#include "formats/text/halo_lists.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
@@ -102,12 +103,18 @@ HaloMembers read_by_lengths(const fs::path& path, std::uint64_t number, int type
   refuse_number(path, number, 0, haloes);
 }
 
+// SOAP's files do not say how many they are.
+std::vector<fs::path> membership_files(const fs::path& path) {
+  const int files = files_of(Hdf5File(path));
+  return files > 1 ? find_members(path, files) : find_siblings(path);
+}
+
 // SOAP: the number of each particle's halo, in the snapshot's order.
 HaloMembers read_by_membership(const fs::path& path, std::uint64_t number, int type,
                                const std::string& label) {
   HaloMembers members;
   std::uint64_t place = 0;
-  for (const fs::path& member : find_members(path, files_of(Hdf5File(path)))) {
+  for (const fs::path& member : membership_files(path)) {
     const Hdf5File file(member);
     const std::string dataset = fmt::format("/PartType{}/{}", type, label);
     if (!file.has(dataset)) continue;
@@ -168,13 +175,28 @@ HaloMembers read_by_ids(const fs::path& groups, std::uint64_t number) {
   return {{}, std::move(ids)};
 }
 
-void check_is_hdf5(const fs::path& path) {
+bool is_hdf5(const fs::path& path) {
   const auto file = MappedFile::open(path);
-  if (Hdf5File::has_signature(file->data(), file->size())) return;
-  throw DataError(
-      fmt::format("{}: not an HDF5 file, expected a catalog of haloes of Gadget-4, AREPO, SOAP or "
-                  "VELOCIraptor in HDF5; select.ids takes lists of identifiers",
-                  path.string()));
+  return Hdf5File::has_signature(file->data(), file->size());
+}
+
+// SOAP's properties of haloes say nothing of their particles; what does may lie beside them.
+std::optional<fs::path> membership_beside(const fs::path& properties) {
+  const std::string mark = "halo_properties_", name = properties.filename().string();
+  const std::size_t at = name.rfind(mark);
+  if (at == std::string::npos) return std::nullopt;
+  const std::string rest = name.substr(at + mark.size());
+  const std::string number = rest.substr(0, rest.find('.'));
+  const fs::path folder = properties.parent_path();
+  for (const fs::path& place :
+       {folder, folder / ("membership_" + number), folder / ".." / ("membership_" + number)}) {
+    for (const char* const ending : {".hdf5", ".0.hdf5"}) {
+      const fs::path membership = place / ("membership_" + number + ending);
+      std::error_code ignored;
+      if (fs::is_regular_file(membership, ignored)) return membership;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -187,7 +209,7 @@ bool HaloMembers::has_place(std::uint64_t place) const {
 }
 
 HaloMembers read_halo(const fs::path& path, std::uint64_t number, int type) {
-  check_is_hdf5(path);
+  if (!is_hdf5(path)) return {{}, read_halo_list(path, number)};
   const Hdf5File file(path);
   if (file.has(lengths_by_type) || file.number("Header", "Ngroups_Total")) {
     return read_by_lengths(path, number, type);
@@ -200,31 +222,13 @@ HaloMembers read_halo(const fs::path& path, std::uint64_t number, int type) {
       }
     }
   }
+  if (const auto membership = membership_beside(path)) return read_halo(*membership, number, type);
   throw DataError(fmt::format(
-      "{}: found no Group/GroupLenType (SUBFIND, FOF), PartType0/GroupNr_bound (SOAP) nor "
+      "{}: found no Group/GroupLenType (SUBFIND, FOF), PartType0/GroupNr_bound (SOAP's "
+      "membership files) nor "
       "Group_Size with Offset (VELOCIraptor), expected a catalog that says which particles a halo "
       "has",
       path.string()));
-}
-
-std::optional<fs::path> find_halo_catalog(const fs::path& snapshot) {
-  std::string name = snapshot.filename().string();
-  name.resize(std::min(name.find('.'), name.size()));
-  const std::size_t line = name.rfind('_');
-  if (line == std::string::npos) return std::nullopt;
-  const std::string number = name.substr(line + 1);
-  const fs::path folder = snapshot.parent_path();
-  for (const fs::path& place :
-       {folder, folder / ("groups_" + number), folder / ".." / ("groups_" + number)}) {
-    for (const char* stem : {"fof_subhalo_tab_", "fof_tab_"}) {
-      for (const char* ending : {".hdf5", ".0.hdf5"}) {
-        const fs::path catalog = place / (stem + number + ending);
-        std::error_code ignored;
-        if (fs::is_regular_file(catalog, ignored)) return catalog;
-      }
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace splotchcl

@@ -140,6 +140,8 @@ bool Hdf5File::check_sources(const Hdf5Dataset& dataset, hid_t handle, hid_t pro
 
 void Hdf5File::check_complete(const Hdf5Dataset& dataset, int depth) const {
   const Hdf5Silence silence;
+  // What is there of one member is there of all.
+  if (!dataset.member.empty()) return check_complete(this->dataset(dataset.path), depth);
   const Dataset handle = open_dataset(dataset.path);
   const PropertyList properties(H5Dget_create_plist(handle.id()));
   const H5D_layout_t layout = H5Pget_layout(properties.id());

@@ -7,6 +7,8 @@
 #include <cstring>
 
 #include "common/mapped_file.h"
+#include "common/words.h"
+#include "formats/snapshot_format.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -76,13 +78,65 @@ std::string child_path(const std::string& group, const std::string& name) {
   return group == "/" ? group + name : group + "/" + name;
 }
 
-// A text of any length, which HDF5 allocates.
-std::optional<std::string> variable_text(hid_t attribute, hid_t type) {
-  char* text = nullptr;
-  if (H5Aread(attribute, type, &text) < 0 || text == nullptr) return std::nullopt;
-  std::string value = text;
-  H5free_memory(text);
-  return value;
+void describe_values(hid_t type, Hdf5Dataset& dataset) {
+  const H5T_class_t kind = H5Tget_class(type);
+  dataset.bytes_per_value = H5Tget_size(type);
+  if (kind == H5T_FLOAT) dataset.kind = Hdf5Dataset::Kind::real;
+  if (kind == H5T_COMPOUND) dataset.kind = Hdf5Dataset::Kind::records;
+  // h5py's truth values are named numbers.
+  const bool are_named =
+      kind == H5T_ENUM && H5Tget_class(Type(H5Tget_super(type)).id()) == H5T_INTEGER;
+  if (kind != H5T_INTEGER && !are_named) return;
+  dataset.kind = Hdf5Dataset::Kind::integer;
+  const Type number(are_named ? H5Tget_super(type) : H5Tcopy(type));
+  dataset.is_signed = H5Tget_sign(number.id()) == H5T_SGN_2;
+}
+
+// Of arrays their values, with the array's shape behind the dataset's.
+void describe_member(hid_t type, Hdf5Dataset& member) {
+  if (H5Tget_class(type) != H5T_ARRAY) return describe_values(type, member);
+  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(H5Tget_array_ndims(type), 0)));
+  if (!shape.empty()) H5Tget_array_dims2(type, shape.data());
+  member.shape.insert(member.shape.end(), shape.begin(), shape.end());
+  describe_values(Type(H5Tget_super(type)).id(), member);
+  // Records in arrays are no rows.
+  if (member.kind == Hdf5Dataset::Kind::records) member.kind = Hdf5Dataset::Kind::other;
+}
+
+std::string member_name(hid_t records, unsigned number) {
+  char* const name = H5Tget_member_name(records, number);
+  const std::string text = name == nullptr ? "" : name;
+  H5free_memory(name);
+  return text;
+}
+
+void add_members(hid_t type, const Hdf5Dataset& of, std::vector<Hdf5Dataset>& found) {
+  constexpr std::size_t deepest = 4;
+  const int members = H5Tget_nmembers(type);
+  for (int i = 0; i < members && found.size() < most_columns; ++i) {
+    const Type inner(H5Tget_member_type(type, static_cast<unsigned>(i)));
+    if (!inner.is_valid()) continue;
+    Hdf5Dataset member = of;
+    member.kind = Hdf5Dataset::Kind::other;
+    member.member.push_back(member_name(type, static_cast<unsigned>(i)));
+    describe_member(inner.id(), member);
+    if (member.kind != Hdf5Dataset::Kind::records) {
+      found.push_back(std::move(member));
+    } else if (member.member.size() < deepest) {
+      add_members(inner.id(), member, found);
+    }
+  }
+}
+
+// None where one of them is no number.
+std::optional<std::vector<double>> numbers_in(const std::vector<std::string>& texts) {
+  std::vector<double> numbers;
+  for (const std::string& text : texts) {
+    const auto number = parse_number(trimmed(text));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers.empty() ? std::nullopt : std::optional(std::move(numbers));
 }
 
 }  // namespace
@@ -102,13 +156,6 @@ Hdf5Silence::Hdf5Silence() {
 }
 Hdf5Silence::~Hdf5Silence() {
   H5Eset_auto2(H5E_DEFAULT, printer_, data_);
-}
-
-std::uint64_t Hdf5Dataset::values_per_row() const {
-  std::uint64_t values = 1;
-  for (std::size_t i = 1; i < shape.size(); ++i)
-    values *= shape[i];
-  return values;
 }
 
 bool Hdf5File::has_signature(const std::byte* data, std::uint64_t size) {
@@ -190,6 +237,11 @@ std::vector<Hdf5Dataset> Hdf5File::datasets(const std::string& group) const {
   return result;
 }
 
+std::vector<std::string> Hdf5File::dataset_names(const std::string& group) const {
+  const Hdf5Silence silence;
+  return children(group, H5I_DATASET);
+}
+
 Hdf5File::Dataset Hdf5File::open_dataset(const std::string& path) const {
   Dataset handle(H5Dopen2(file_.id(), path.c_str(), rules_.of_datasets()));
   if (!handle.is_valid()) fail(fmt::format("dataset {} cannot be opened", path));
@@ -206,14 +258,41 @@ Hdf5Dataset Hdf5File::dataset(const std::string& path) const {
   Hdf5Dataset result;
   result.path = path;
   result.shape = shape_of(space.id());
-  result.bytes_per_value = H5Tget_size(type.id());
-  const H5T_class_t kind = H5Tget_class(type.id());
-  if (kind == H5T_FLOAT) result.kind = Hdf5Dataset::Kind::real;
-  // h5py's truth values are named numbers.
-  const bool are_named =
-      kind == H5T_ENUM && H5Tget_class(Type(H5Tget_super(type.id())).id()) == H5T_INTEGER;
-  if (kind == H5T_INTEGER || are_named) result.kind = Hdf5Dataset::Kind::integer;
+  describe_values(type.id(), result);
   return result;
+}
+
+std::vector<Hdf5Dataset> Hdf5File::members(const Hdf5Dataset& records) const {
+  const Hdf5Silence silence;
+  const Dataset handle = open_dataset(records.path);
+  const Type type(H5Dget_type(handle.id()));
+  std::vector<Hdf5Dataset> found;
+  Hdf5Dataset whole = records;
+  whole.member.clear();
+  if (records.kind == Hdf5Dataset::Kind::records) add_members(type.id(), whole, found);
+  return found;
+}
+
+std::vector<std::string> Hdf5File::lines(const std::string& path) const {
+  const Hdf5Silence silence;
+  const Hdf5Dataset dataset = this->dataset(path);
+  const Dataset handle = open_dataset(path);
+  const Type type(H5Dget_type(handle.id()));
+  const bool are_texts =
+      H5Tget_class(type.id()) == H5T_STRING && H5Tis_variable_str(type.id()) == 0;
+  if (!are_texts || dataset.shape.size() != 1 || dataset.bytes_per_value == 0) return {};
+  check_complete(dataset);
+  std::vector<char> text(dataset.rows() * dataset.bytes_per_value);
+  if (!text.empty() &&
+      H5Dread(handle.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) < 0) {
+    fail(fmt::format("dataset {} cannot be read", path));
+  }
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size(); begin += dataset.bytes_per_value) {
+    const std::string line(text.data() + begin, dataset.bytes_per_value);
+    lines.push_back(line.substr(0, line.find('\0')));
+  }
+  return lines;
 }
 
 // Not valid where there is none.
@@ -232,6 +311,7 @@ std::optional<std::vector<double>> Hdf5File::numbers(const std::string& object,
   if (!attribute.is_valid()) return std::nullopt;
   const Type type(H5Aget_type(attribute.id()));
   const H5T_class_t kind = H5Tget_class(type.id());
+  if (kind == H5T_STRING) return numbers_in(texts(attribute.id()));
   if (kind != H5T_FLOAT && kind != H5T_INTEGER) return std::nullopt;
   const Space space(H5Aget_space(attribute.id()));
   // Attributes live in object headers of at most 64 KiB or in dense storage; either way
@@ -249,84 +329,38 @@ std::optional<double> Hdf5File::number(const std::string& object, const std::str
   return values ? std::optional<double>(values->front()) : std::nullopt;
 }
 
+// An attribute's texts, of any length or of one.
+std::vector<std::string> Hdf5File::texts(hid_t attribute) const {
+  const Type type(H5Aget_type(attribute));
+  const Space space(H5Aget_space(attribute));
+  const auto count =
+      static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id())));
+  std::vector<std::string> texts;
+  if (H5Tis_variable_str(type.id()) > 0) {
+    std::vector<char*> pointers(count, nullptr);
+    if (count == 0 || H5Aread(attribute, type.id(), pointers.data()) < 0) return texts;
+    for (const char* const text : pointers)
+      texts.emplace_back(text == nullptr ? "" : text);
+    H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
+    return texts;
+  }
+  const std::size_t length = H5Tget_size(type.id());
+  std::string bytes(count * length, '\0');
+  if (bytes.empty() || H5Aread(attribute, type.id(), bytes.data()) < 0) return texts;
+  for (std::size_t begin = 0; begin < bytes.size(); begin += length)
+    texts.emplace_back(bytes.substr(begin, length).c_str());
+  return texts;
+}
+
 std::optional<std::string> Hdf5File::text(const std::string& object,
                                           const std::string& name) const {
   const Hdf5Silence silence;
   const Attribute attribute = open_attribute(object, name);
   if (!attribute.is_valid()) return std::nullopt;
   const Type type(H5Aget_type(attribute.id()));
-  const Space space(H5Aget_space(attribute.id()));
-  const bool is_one_text =
-      H5Tget_class(type.id()) == H5T_STRING && H5Sget_simple_extent_npoints(space.id()) == 1;
-  if (!is_one_text) return std::nullopt;
-  if (H5Tis_variable_str(type.id()) > 0) return variable_text(attribute.id(), type.id());
-  std::string value(H5Tget_size(type.id()), '\0');
-  if (H5Aread(attribute.id(), type.id(), value.data()) < 0) return std::nullopt;
-  return std::string(value.c_str());
-}
-
-void Hdf5File::read(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,
-                    void* out) const {
-  const Hdf5Silence silence;
-  const Dataset handle = open_dataset(dataset.path);
-  const Space file_space(H5Dget_space(handle.id()));
-  std::vector<hsize_t> count = dataset.shape;
-  if (count.empty()) {  // a single value
-    if (H5Dread(handle.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out) < 0) {
-      fail(fmt::format("dataset {} cannot be read", dataset.path));
-    }
-    return;
-  }
-  std::vector<hsize_t> start(count.size(), 0);
-  start[0] = first;
-  count[0] = rows;
-  const Space memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr));
-  const bool is_read =
-      H5Sselect_hyperslab(file_space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(),
-                          nullptr) >= 0 &&
-      H5Dread(handle.id(), type, memory.id(), file_space.id(), H5P_DEFAULT, out) >= 0;
-  if (!is_read) fail(fmt::format("dataset {} cannot be read", dataset.path));
-}
-
-void Hdf5File::read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
-                         float* out) const {
-  read(dataset, first, rows, H5T_NATIVE_FLOAT, out);
-}
-
-void Hdf5File::read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
-                         double* out) const {
-  read(dataset, first, rows, H5T_NATIVE_DOUBLE, out);
-}
-
-void Hdf5File::read_rows(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows,
-                         std::uint64_t* out) const {
-  const Dataset handle = open_dataset(dataset.path);
-  const Hdf5Handle<H5Tclose> stored(H5Dget_type(handle.id()));
-  // HDF5 would make 0 of all below it.
-  const bool is_signed = H5Tget_sign(stored.id()) == H5T_SGN_2;
-  read(dataset, first, rows, is_signed ? H5T_NATIVE_INT64 : H5T_NATIVE_UINT64, out);
-}
-
-std::uint64_t Hdf5File::rows_per_piece(const Hdf5Dataset& dataset) const {
-  constexpr std::uint64_t piece = 1U << 20;
-  const Hdf5Silence silence;
-  const Dataset handle = open_dataset(dataset.path);
-  const PropertyList properties(H5Dget_create_plist(handle.id()));
-  if (H5Pget_layout(properties.id()) != H5D_CHUNKED) return piece;
-  std::vector<hsize_t> chunk(dataset.shape.size());
-  H5Pget_chunk(properties.id(), static_cast<int>(chunk.size()), chunk.data());
-  // Chunks are decompressed whole, so none should be cut in two.
-  return std::max<std::uint64_t>(1, piece / chunk[0]) * chunk[0];
-}
-
-std::optional<Hdf5Place> Hdf5File::find_native_floats(const Hdf5Dataset& dataset) const {
-  const Hdf5Silence silence;
-  const Dataset handle = open_dataset(dataset.path);
-  const Type type(H5Dget_type(handle.id()));
-  if (H5Tequal(type.id(), H5T_NATIVE_FLOAT) <= 0) return std::nullopt;
-  const haddr_t offset = H5Dget_offset(handle.id());  // undefined for chunks
-  if (offset == HADDR_UNDEF) return std::nullopt;
-  return Hdf5Place{file_of_dataset(handle.id()), offset};
+  if (H5Tget_class(type.id()) != H5T_STRING) return std::nullopt;
+  const std::vector<std::string> found = texts(attribute.id());
+  return found.size() == 1 ? std::optional(found.front()) : std::nullopt;
 }
 
 }  // namespace splotchcl

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/hdf5/hdf5_dataset.h"
 #include "formats/hdf5/hdf5_links.h"
 
 namespace splotchcl {
@@ -27,24 +28,6 @@ class Hdf5Silence {
  private:
   H5E_auto2_t printer_ = nullptr;
   void* data_ = nullptr;
-};
-
-// A dataset of rows: one row per particle.
-struct Hdf5Dataset {
-  enum class Kind { integer, real, other };
-  std::string path;  // in the file
-  std::vector<hsize_t> shape;
-  Kind kind = Kind::other;
-  std::size_t bytes_per_value = 0;
-
-  std::string label() const { return path.substr(path.rfind('/') + 1); }
-  std::uint64_t rows() const { return shape.empty() ? 1 : shape[0]; }
-  std::uint64_t values_per_row() const;
-  bool is_double() const { return kind == Kind::real && bytes_per_value > 4; }
-  // Whether single precision has every value that it may hold.
-  bool is_single_precision() const {
-    return kind == Kind::real ? !is_double() : bytes_per_value <= 2;
-  }
 };
 
 // Where values lie on the disk.
@@ -67,9 +50,15 @@ class Hdf5File {
   bool has(const std::string& object) const;
   std::vector<std::string> groups(const std::string& group) const;    // names, sorted
   std::vector<Hdf5Dataset> datasets(const std::string& group) const;  // sorted by name
+  std::vector<std::string> dataset_names(const std::string& group) const;
   Hdf5Dataset dataset(const std::string& path) const;
+  // What is in the records of a dataset, and in records in these; nothing where it has none.
+  std::vector<Hdf5Dataset> members(const Hdf5Dataset& records) const;
+  // The lines of a dataset of texts of one length; nothing where it is none.
+  std::vector<std::string> lines(const std::string& path) const;
 
-  // A numeric attribute, scalar or array of any shape. None when it is absent or is text.
+  // A numeric attribute, scalar or array of any shape, also of texts that are numbers. None when it
+  // is absent or other text.
   std::optional<std::vector<double>> numbers(const std::string& object,
                                              const std::string& attribute) const;
   std::optional<double> number(const std::string& object, const std::string& attribute) const;
@@ -98,6 +87,7 @@ class Hdf5File {
   using Attribute = Hdf5Handle<H5Aclose>;
   using Dataset = Hdf5Handle<H5Dclose>;
   std::vector<std::string> children(const std::string& group, H5I_type_t wanted) const;
+  std::vector<std::string> texts(hid_t attribute) const;
   Attribute open_attribute(const std::string& object, const std::string& name) const;
   Dataset open_dataset(const std::string& path) const;
   // `depth`: how many virtual datasets it is a source of.
@@ -109,6 +99,9 @@ class Hdf5File {
   void check_filters(const std::string& dataset, hid_t properties) const;
   void read(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,
             void* out) const;
+  template <class T>
+  void read_parts(const Hdf5Dataset& dataset, std::uint64_t first, std::uint64_t rows, hid_t type,
+                  T* out) const;
   [[noreturn]] void fail(const std::string& what) const;
   [[noreturn]] void fail(const std::string& what, const std::string& reason) const;
 

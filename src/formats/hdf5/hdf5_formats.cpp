@@ -30,8 +30,13 @@ class Hdf5Formats : public SnapshotFormat {
     return Hdf5File::has_signature(file->data(), file->size());
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
-                                 const SnapshotOptions&) const override {
-    if (const auto within = path_in_file(path)) return open_group(*within);
+                                 const SnapshotOptions& options) const override {
+    const auto within = path_in_file(path);
+    if (!options.columns.empty()) {
+      return open_named_columns(within ? within->file : path, within ? within->group : "",
+                                options.columns);
+    }
+    if (within) return open_group(*within);
     const Hdf5File file(path);
     if (is_phantom_hdf5(file)) return open_phantom_hdf5(path);
     if (is_plain_hdf5(file)) return open_plain_hdf5(path);
@@ -40,6 +45,7 @@ class Hdf5Formats : public SnapshotFormat {
                     ": holds a map, expected particles; give the snapshot that it is a map of");
   }
   bool has_groups() const override { return true; }
+  bool has_columns() const override { return true; }
   bool is_map(const std::filesystem::path& path) const override {
     try {
       return holds_map(Hdf5File(path));

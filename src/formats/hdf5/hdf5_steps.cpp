@@ -26,7 +26,7 @@ NumberedName split_number(const std::string& name) {
 bool is_stem_of_steps(const std::string& stem) {
   constexpr std::array<const char*, 10> known = {"",     "step", "timestep", "time",  "snapshot",
                                                  "snap", "t",    "frame",    "cycle", "output"};
-  const std::string word = lower_case(trimmed(stem, "#_-/. "));
+  const std::string word = lower_case(trimmed(stem.substr(stem.rfind('/') + 1), "#_-. "));
   return std::find(known.begin(), known.end(), word) != known.end();
 }
 
@@ -49,12 +49,36 @@ bool is_before(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+namespace {
+
+// A group that may be a step, and how its numbered name begins.
+struct NumberedGroup {
+  std::string stem, path;
+};
+
+// On the way to a group of particles, from the outside in.
+std::vector<NumberedGroup> numbered_groups(const std::string& path) {
+  std::vector<NumberedGroup> groups;
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    const std::string group = path.substr(0, end);
+    const NumberedName name = split_number(group);
+    const bool may_be_step =
+        !name.number.empty() && !find_particle_type(group.substr(group.rfind('/') + 1));
+    if (may_be_step) groups.push_back({name.stem, group});
+    if (end == std::string::npos) return groups;
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> find_steps(const Hdf5File& file, const std::vector<std::string>& groups) {
   std::map<std::string, std::vector<std::string>> by_stem;
   for (const std::string& group : groups) {
-    const NumberedName name = split_number(group);
-    const bool may_be_step = !name.number.empty() && !find_particle_type(group.substr(1));
-    if (may_be_step) by_stem[name.stem].push_back(group);
+    for (const NumberedGroup& numbered : numbered_groups(group)) {
+      std::vector<std::string>& steps = by_stem[numbered.stem];
+      if (std::find(steps.begin(), steps.end(), numbered.path) == steps.end())
+        steps.push_back(numbered.path);
+    }
   }
   for (auto& [stem, steps] : by_stem) {
     if (!are_steps(file, stem, steps)) continue;

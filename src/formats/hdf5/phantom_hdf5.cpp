@@ -163,8 +163,7 @@ double PhantomSnapshot::header_number(const std::string& name, double otherwise)
   const std::string path = "/header/" + name;
   if (!file_.has(path)) return otherwise;
   const Hdf5Dataset dataset = file_.dataset(path);
-  const bool is_number =
-      dataset.kind != Hdf5Dataset::Kind::other && dataset.rows() * dataset.values_per_row() == 1;
+  const bool is_number = dataset.is_number() && dataset.rows() * dataset.values_per_row() == 1;
   double value = otherwise;
   if (is_number) file_.read_rows(dataset, 0, 1, &value);
   return value;
@@ -199,7 +198,7 @@ void PhantomSnapshot::find_datasets() {
   std::vector<std::string> left_out;
   for (const Hdf5Dataset& dataset : file_.datasets("/particles")) {
     const std::uint64_t values = dataset.values_per_row();
-    const bool is_usable = dataset.kind != Hdf5Dataset::Kind::other && (values == 1 || values == 3);
+    const bool is_usable = dataset.is_number() && (values == 1 || values == 3);
     if (is_usable) {
       fields_.push_back({dataset.label(), {dataset}});
     } else {

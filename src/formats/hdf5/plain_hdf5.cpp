@@ -1,15 +1,17 @@
-// HDF5 without a header that counts particles: datasets at the root or in groups, as users of h5py
-// and yt's save_as_dataset write them. The data themselves tell how many there are.
+// HDF5 without a header that counts particles: datasets at the root or in groups, or records, as
+// users of h5py, astropy and PyTables, yt's save_as_dataset and openPMD write them. The data
+// themselves tell how many there are.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "formats/hdf5/hdf5_column.h"
+#include "formats/flat_table.h"
 #include "formats/hdf5/hdf5_formats.h"
 #include "formats/hdf5/hdf5_steps.h"
-#include "formats/hdf5/hdf5_units.h"
+#include "formats/hdf5/hdf5_table.h"
+#include "formats/hdf5/named_columns.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
@@ -21,175 +23,23 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
-bool is_column(const Hdf5Dataset& dataset) {
-  const std::uint64_t values = dataset.values_per_row();
-  return dataset.kind != Hdf5Dataset::Kind::other && !dataset.shape.empty() &&
-         (values == 1 || values == 3);
-}
-
-// yt's names of particles' fields begin with "particle_"; its index is the identifier.
-std::string field_label(const std::string& label) {
-  const std::string prefix = "particle_";
-  if (label.compare(0, prefix.size(), prefix) != 0 || label.size() == prefix.size()) return label;
-  const std::string name = label.substr(prefix.size());
-  return name == "index" ? "ids" : name;
-}
-
-std::string unit_of(const Hdf5File& file, const Hdf5Dataset& dataset) {
-  for (const char* attribute : {"units", "unit", "Units", "Unit"}) {
-    const auto unit = file.text(dataset.path, attribute);
-    if (unit && !unit->empty() && *unit != "dimensionless") return *unit;
-  }
-  return read_field_unit(file, dataset, read_units(file));
-}
-
-TableColumn column_of(const Hdf5File& file, const Hdf5Dataset& dataset) {
-  const std::string unit = unit_of(file, dataset);
-  const std::string name = field_label(dataset.label());
-  return {unit.empty() ? name : fmt::format("{} [{}]", name, unit),
-          static_cast<int>(dataset.values_per_row())};
-}
-
-// The datasets of a group that can be columns; those of other shapes in `others`.
-std::vector<Hdf5Dataset> columns_in(const Hdf5File& file, const std::string& group,
-                                    std::vector<std::string>& others) {
-  std::vector<Hdf5Dataset> columns;
-  for (Hdf5Dataset& dataset : file.datasets(group)) {
-    if (dataset.shape.empty()) continue;  // a single value
-    if (is_column(dataset)) {
-      columns.push_back(std::move(dataset));
-    } else {
-      others.push_back(dataset.label());
-    }
-  }
-  return columns;
-}
-
-std::vector<TableColumn> described(const Hdf5File& file, const std::vector<Hdf5Dataset>& datasets) {
-  std::vector<TableColumn> columns;
-  for (const Hdf5Dataset& dataset : datasets)
-    columns.push_back(column_of(file, dataset));
-  return columns;
-}
-
-// The datasets of a group as columns, as long as the positions among them.
-class Hdf5Table : public Table {
- public:
-  Hdf5Table(const std::filesystem::path& path, const std::string& group, Notes& notes);
-
-  const std::vector<TableColumn>& columns() const override { return columns_; }
-  std::uint64_t rows() const override { return rows_; }
-  void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
-  bool is_single_precision(std::size_t column) const override {
-    return datasets_[column].is_single_precision();
-  }
-  std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
-
- private:
-  void keep_those_of_particles(std::vector<std::string>& left_out);
-
-  Hdf5File file_;
-  std::vector<TableColumn> columns_;
-  std::vector<Hdf5Dataset> datasets_;  // of the columns
-  std::uint64_t rows_ = 0;
-};
-
-Hdf5Table::Hdf5Table(const std::filesystem::path& path, const std::string& group, Notes& notes)
-    : file_(path) {
-  std::vector<std::string> left_out;
-  datasets_ = columns_in(file_, group, left_out);
-  columns_ = described(file_, datasets_);
-  if (const auto guessed = guess_positions(columns_)) {
-    notes.push_back(fmt::format("dataset {} is taken for the positions", datasets_[*guessed].path));
-    columns_[*guessed].name = "position";
-  }
-  keep_those_of_particles(left_out);
-  if (!left_out.empty()) {
-    notes.push_back(
-        fmt::format("left out of {}, as they are not one or three numbers for each of {} "
-                    "particles: {}",
-                    group, rows_, fmt::join(left_out, ", ")));
-  }
-  if (rows_ == 0) {
-    throw DataError(fmt::format("{}: the positions in {} have no rows; expected particles",
-                                path.string(), group));
-  }
-}
-
-void Hdf5Table::keep_those_of_particles(std::vector<std::string>& left_out) {
-  if (const auto positions = find_positions(columns_)) rows_ = datasets_[*positions].rows();
-  std::vector<TableColumn> columns;
-  std::vector<Hdf5Dataset> datasets;
-  for (std::size_t i = 0; i < datasets_.size(); ++i) {
-    if (datasets_[i].rows() != rows_) {
-      left_out.push_back(datasets_[i].label());
-      continue;
-    }
-    columns.push_back(columns_[i]);
-    datasets.push_back(datasets_[i]);
-  }
-  columns_ = std::move(columns);
-  datasets_ = std::move(datasets);
-}
-
-void Hdf5Table::for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const {
-  std::uint64_t piece = rows_;
-  for (const TableValue& value : wanted) {
-    file_.check_complete(datasets_[value.column]);
-    piece = std::min(piece, file_.rows_per_piece(datasets_[value.column]));
-  }
-  std::map<std::size_t, std::vector<double>> pieces;  // of each column
-  std::vector<double> values(wanted.size());
-  for (std::uint64_t first = 0; first < rows_; first += piece) {
-    const std::uint64_t rows = std::min(piece, rows_ - first);
-    pieces.clear();
-    for (const TableValue& value : wanted) {
-      std::vector<double>& read = pieces[value.column];
-      if (!read.empty()) continue;
-      const Hdf5Dataset& dataset = datasets_[value.column];
-      read.resize(rows * dataset.values_per_row());
-      file_.read_rows(dataset, first, rows, read.data());
-    }
-    for (std::uint64_t row = 0; row < rows; ++row) {
-      for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const std::uint64_t width = datasets_[wanted[i].column].values_per_row();
-        values[i] =
-            pieces[wanted[i].column][row * width + static_cast<std::uint64_t>(wanted[i].axis)];
-      }
-      use(values.data());
-    }
-  }
-}
-
-// yt keeps identifiers as doubles: they are whole numbers as far as doubles have all of these.
-std::optional<std::vector<std::uint64_t>> Hdf5Table::integers(std::size_t column) const {
-  const Hdf5Dataset& dataset = datasets_[column];
-  if (dataset.kind == Hdf5Dataset::Kind::integer) return read_integers({{file_.path(), dataset}});
-  constexpr double largest = 9007199254740992.0;
-  std::vector<std::uint64_t> numbers;
-  bool are_whole = true;
-  for_rows({{column, 0}}, [&](const double* value) {
-    const bool is_whole = *value >= 0 && *value <= largest && *value == std::floor(*value);
-    are_whole = are_whole && is_whole;
-    numbers.push_back(is_whole ? static_cast<std::uint64_t>(*value) : 0);
-  });
-  return are_whole ? std::optional(std::move(numbers)) : std::nullopt;
-}
-
-bool has_positions(const Hdf5File& file, const std::string& group) {
-  std::vector<std::string> ignored;
-  const std::vector<TableColumn> columns = described(file, columns_in(file, group, ignored));
-  return find_positions(columns) || guess_positions(columns);
-}
-
-// The groups with particles, the root among them.
-std::vector<std::string> particle_groups(const Hdf5File& file) {
+// The group itself, then those that it is in.
+std::vector<std::string> with_outer_groups(std::string group) {
   std::vector<std::string> groups;
-  if (has_positions(file, "/")) groups.emplace_back("/");
-  for (const std::string& group : file.groups("/")) {
-    if (has_positions(file, "/" + group)) groups.push_back("/" + group);
+  while (group.size() > 1) {
+    groups.push_back(group);
+    group.resize(group.rfind('/'));
   }
+  groups.emplace_back("/");
   return groups;
+}
+
+// By its own name or that of the nearest group that it is in.
+std::optional<int> type_of_group(const std::string& group) {
+  for (const std::string& outer : with_outer_groups(group)) {
+    if (const auto type = find_particle_type(outer.substr(outer.rfind('/') + 1))) return type;
+  }
+  return std::nullopt;
 }
 
 // A type for each group: by its name; where no name is one, in their order from 0. Beside groups
@@ -198,7 +48,7 @@ std::map<int, std::string> choose_types(const std::vector<std::string>& groups, 
   std::map<int, std::string> types;
   std::vector<std::string> others;
   for (const std::string& group : groups) {
-    const auto type = find_particle_type(group.substr(1));
+    const auto type = type_of_group(group);
     const bool is_new = type && types.emplace(*type, group).second;
     if (!is_new) others.push_back(group);
   }
@@ -217,12 +67,31 @@ std::map<int, std::string> choose_types(const std::vector<std::string>& groups, 
   return types;
 }
 
-// Of groups that are steps in time one: that which is asked for, or the last.
+// Those that are the group or lie in it.
+std::vector<std::string> groups_below(const std::vector<std::string>& groups,
+                                      const std::string& wanted) {
+  std::vector<std::string> below;
+  for (const std::string& group : groups) {
+    const std::vector<std::string> outer = with_outer_groups(group);
+    if (std::find(outer.begin(), outer.end(), wanted) != outer.end()) below.push_back(group);
+  }
+  return below;
+}
+
+// The innermost group that holds all of these.
+std::string common_group(const std::vector<std::string>& groups) {
+  for (const std::string& outer : with_outer_groups(groups.front())) {
+    if (groups_below(groups, outer).size() == groups.size()) return outer;
+  }
+  return "/";
+}
+
+// Of groups that are steps in time those of one: that which is asked for, or the last.
 std::vector<std::string> choose_step(const Hdf5File& file, const std::vector<std::string>& groups,
                                      const std::string& wanted, Notes& notes) {
   if (!wanted.empty()) {
-    if (std::find(groups.begin(), groups.end(), "/" + wanted) != groups.end())
-      return {"/" + wanted};
+    std::vector<std::string> below = groups_below(groups, "/" + wanted);
+    if (!below.empty()) return below;
     throw DataError(fmt::format("{}: found no particles in a group {}, expected one of {}",
                                 file.path().string(), wanted, fmt::join(groups, ", ")));
   }
@@ -232,13 +101,15 @@ std::vector<std::string> choose_step(const Hdf5File& file, const std::vector<std
       "the file has {0} steps in time, {1} to {2}: the last is read; {3}{1} as the snapshot is the "
       "first, and time.snapshots may list them",
       steps.size(), steps.front(), steps.back(), file.path().string()));
-  return {steps.back()};
+  return groups_below(groups, steps.back());
 }
 
 // The first of these attributes that is a number, or a dataset of a single one.
 std::optional<double> find_number(const Hdf5File& file, const std::vector<const char*>& names,
                                   const std::string& group = "/") {
-  for (const std::string& object : {group, std::string("/"), std::string("Header")}) {
+  std::vector<std::string> objects = with_outer_groups(group);
+  objects.emplace_back("Header");
+  for (const std::string& object : objects) {
     for (const char* name : names) {
       if (const auto number = file.number(object, name)) return number;
     }
@@ -246,8 +117,7 @@ std::optional<double> find_number(const Hdf5File& file, const std::vector<const 
   for (const char* name : names) {
     if (!file.has(name)) continue;
     const Hdf5Dataset dataset = file.dataset(name);
-    const bool is_number =
-        dataset.kind != Hdf5Dataset::Kind::other && dataset.rows() * dataset.values_per_row() == 1;
+    const bool is_number = dataset.is_number() && dataset.rows() * dataset.values_per_row() == 1;
     double value = 0;
     if (is_number) file.read_rows(dataset, 0, 1, &value);
     if (is_number) return value;
@@ -316,35 +186,88 @@ void read_box(const Hdf5File& file, SnapshotInfo& info) {
 }  // namespace
 
 bool is_plain_hdf5(const Hdf5File& file) {
-  return !file.numbers("Header", "NumPart_ThisFile") && !particle_groups(file).empty();
+  return !file.numbers("Header", "NumPart_ThisFile") && !find_particle_groups(file).empty();
 }
+
+namespace {
+
+std::string format_name(const Hdf5File& file, bool is_of_yt) {
+  if (is_of_yt) return "HDF5 by yt's save_as_dataset";
+  return file.text("/", "openPMD") ? "HDF5 of openPMD" : "HDF5 without a header";
+}
+
+// What all of plain HDF5 has in common.
+class PlainHdf5 {
+ public:
+  explicit PlainHdf5(const std::filesystem::path& path)
+      : file_(path),
+        is_of_yt_(file_.text("/", "data_type").value_or("").compare(0, 3, "yt_") == 0) {
+    info_.format = format_name(file_, is_of_yt_);
+    info_.files = {path};
+  }
+  std::unique_ptr<Snapshot> open(const std::string& wanted_group);
+  std::unique_ptr<Snapshot> open_named(const std::string& group,
+                                       const std::vector<std::string>& columns);
+
+ private:
+  void add_table(int type, std::unique_ptr<const Table> table);
+  // The only group, or the root.
+  std::unique_ptr<Snapshot> make_snapshot(const std::string& group);
+
+  Hdf5File file_;
+  bool is_of_yt_;
+  SnapshotInfo info_;
+  TablesByType tables_;
+};
+
+void PlainHdf5::add_table(int type, std::unique_ptr<const Table> table) {
+  tables_.emplace(type, with_flat_positions(std::move(table), info_.notes));
+}
+
+std::unique_ptr<Snapshot> PlainHdf5::make_snapshot(const std::string& group) {
+  // By now it has been asked for all groups.
+  info_.files_beside.assign(file_.links().followed.begin(), file_.links().followed.end());
+  note_refused(file_.links(), info_.notes);
+  read_numbers(file_, group, info_);
+  const std::vector<TableColumn>& columns = tables_.begin()->second->columns();
+  const auto positions = find_positions(columns);
+  // What yt hands on of the simulation's header is in other units than what it writes.
+  if (!is_of_yt_) read_box(file_, info_);
+  if (!info_.box_size && positions) {
+    info_.box_size =
+        find_domain(file_, split_unit(columns[*positions].name).unit, unit_factors(info_));
+  }
+  return make_table_snapshot(std::move(tables_), std::move(info_));
+}
+
+std::unique_ptr<Snapshot> PlainHdf5::open(const std::string& wanted_group) {
+  const std::vector<std::string> groups =
+      choose_step(file_, find_particle_groups(file_), wanted_group, info_.notes);
+  for (const auto& [type, group] : choose_types(groups, info_.notes))
+    add_table(type, std::make_unique<Hdf5Table>(file_.path(), group, info_.notes));
+  return make_snapshot(groups.size() == 1 ? groups.front() : common_group(groups));
+}
+
+std::unique_ptr<Snapshot> PlainHdf5::open_named(const std::string& group,
+                                                const std::vector<std::string>& columns) {
+  std::vector<Hdf5Column> named = named_columns(file_, group, columns);
+  const std::string owner = named.front().owner;
+  add_table(type_of_group(owner).value_or(0),
+            std::make_unique<Hdf5Table>(file_.path(), std::move(named)));
+  return make_snapshot(with_outer_groups(owner)[1]);
+}
+
+}  // namespace
 
 std::unique_ptr<Snapshot> open_plain_hdf5(const std::filesystem::path& path,
                                           const std::string& wanted_group) {
-  const Hdf5File file(path);
-  const bool is_of_yt = file.text("/", "data_type").value_or("").compare(0, 3, "yt_") == 0;
-  SnapshotInfo info;
-  info.format = is_of_yt ? "HDF5 by yt's save_as_dataset" : "HDF5 without a header";
-  info.files = {path};
-  const std::vector<std::string> groups =
-      choose_step(file, particle_groups(file), wanted_group, info.notes);
-  read_numbers(file, groups.size() == 1 ? groups.front() : "/", info);
-  TablesByType tables;
-  for (const auto& [type, group] : choose_types(groups, info.notes)) {
-    tables.emplace(type, std::make_unique<Hdf5Table>(path, group, info.notes));
-  }
-  // By now it has been asked for all groups.
-  info.files_beside.assign(file.links().followed.begin(), file.links().followed.end());
-  note_refused(file.links(), info.notes);
-  const std::vector<TableColumn>& columns = tables.begin()->second->columns();
-  const auto positions = find_positions(columns);
-  // What yt hands on of the simulation's header is in other units than what it writes.
-  if (!is_of_yt) read_box(file, info);
-  if (!info.box_size && positions) {
-    info.box_size =
-        find_domain(file, split_unit(columns[*positions].name).unit, unit_factors(info));
-  }
-  return make_table_snapshot(std::move(tables), std::move(info));
+  return PlainHdf5(path).open(wanted_group);
+}
+
+std::unique_ptr<Snapshot> open_named_columns(const std::filesystem::path& path,
+                                             const std::string& group,
+                                             const std::vector<std::string>& columns) {
+  return PlainHdf5(path).open_named(group, columns);
 }
 
 }  // namespace splotchcl

@@ -8,8 +8,10 @@
 #include <map>
 #include <optional>
 
+#include "formats/flat_table.h"
 #include "formats/numpy/numpy_array.h"
 #include "formats/numpy/zip_archive.h"
+#include "formats/renamed_table.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
@@ -70,7 +72,9 @@ NumpyColumn plain_column(std::size_t array, const NumpyHeader& header, std::uint
 
 class NumpyTable : public Table {
  public:
-  NumpyTable(const fs::path& path, const std::vector<std::string>& names, SnapshotInfo& info);
+  // `numbers_columns`: those of an array without names are column_1, column_2, ...
+  NumpyTable(const fs::path& path, const std::vector<std::string>& names, SnapshotInfo& info,
+             bool numbers_columns = false);
 
   const std::vector<TableColumn>& columns() const override { return columns_; }
   std::uint64_t rows() const override { return rows_; }
@@ -98,6 +102,7 @@ class NumpyTable : public Table {
   fs::path path_;
   std::unique_ptr<ZipArchive> archive_;
   std::shared_ptr<const MappedFile> file_;  // of a single array
+  bool numbers_columns_ = false;            // those of an array without names, from 1
   std::vector<NumpyArray> arrays_;
   std::vector<std::size_t> entries_;  // of the archive, for each array
   std::vector<TableColumn> columns_;
@@ -107,14 +112,14 @@ class NumpyTable : public Table {
 };
 
 NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& names,
-                       SnapshotInfo& info)
-    : path_(path), file_(MappedFile::open(path)) {
+                       SnapshotInfo& info, bool numbers_columns)
+    : path_(path), file_(MappedFile::open(path)), numbers_columns_(numbers_columns) {
   if (is_numpy_array(file_->data(), file_->size())) {
     info.format = "NumPy array";
     arrays_.push_back(
         {"", read_numpy_header(file_->data(), file_->size(), file_->size(), path.string())});
     refuse_objects();
-    if (names.empty()) refuse_image();
+    if (names.empty() && !numbers_columns) refuse_image();
   } else {
     info.format = "NumPy archive";
     open_archive(info.notes);
@@ -298,6 +303,9 @@ void NumpyTable::add_plain(std::size_t array, const std::vector<std::string>& na
     } else {
       left_out_.push_back(arrays_[array].name);
     }
+  } else if (numbers_columns_) {
+    for (std::uint64_t i = 0; i < std::min<std::uint64_t>(width, most_columns); ++i)
+      add(fmt::format("column_{}", i + 1), plain_column(array, header, i, 1));
   } else if (width >= 3) {
     add("position", plain_column(array, header, 0, 3));
     for (std::uint64_t i = 3; i < std::min<std::uint64_t>(width, most_columns); ++i) {
@@ -372,7 +380,11 @@ class NumpyFormat : public SnapshotFormat {
                                  const SnapshotOptions& options) const override {
     SnapshotInfo info;
     info.files = {path};
-    auto table = std::make_unique<NumpyTable>(path, options.columns, info);
+    const bool has_new_names = names_columns_anew(options.columns);
+    std::unique_ptr<const Table> table = std::make_unique<NumpyTable>(
+        path, has_new_names ? std::vector<std::string>() : options.columns, info, has_new_names);
+    table = with_new_names(std::move(table), options.columns, path);
+    table = with_flat_positions(std::move(table), info.notes);
     return make_table_snapshot(std::move(table), std::move(info));
   }
   bool is_map(const fs::path& path) const override {

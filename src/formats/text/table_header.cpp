@@ -6,6 +6,7 @@
 
 #include "common/words.h"
 #include "formats/table_names.h"
+#include "formats/text/text_cells.h"
 #include "snapshot/field_names.h"
 
 namespace splotchcl {
@@ -15,12 +16,23 @@ bool has(const std::vector<std::string>& names, const std::string& wanted) {
   return std::find(names.begin(), names.end(), wanted) != names.end();
 }
 
-// "Xc(6)", "#ID(1)" as the sixth and the first column.
+bool ends_with(const std::string& text, const std::string& ending) {
+  return text.size() > ending.size() &&
+         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+// "Xc(6)", "#ID(1)" as the sixth and the first column, "x(17)" as the eighteenth; "2:x", "[2]=x".
 std::string without_number(const std::string& name, std::size_t column) {
-  const std::string number = "(" + std::to_string(column + 1) + ")";
-  const bool ends_with_it = name.size() > number.size() &&
-                            name.compare(name.size() - number.size(), number.size(), number) == 0;
-  return ends_with_it ? name.substr(0, name.size() - number.size()) : name;
+  for (const std::size_t number : {column + 1, column}) {
+    const std::string digits = std::to_string(number);
+    if (ends_with(name, "(" + digits + ")")) return name.substr(0, name.size() - digits.size() - 2);
+    for (const std::string& start : {digits + ":", "[" + digits + "]=", "[" + digits + "]"}) {
+      const bool begins_with_it =
+          name.size() > start.size() && name.compare(0, start.size(), start) == 0;
+      if (begins_with_it) return name.substr(start.size());
+    }
+  }
+  return name;
 }
 
 // Where all three axes of a vector are written in another way, those that are ours.
@@ -58,7 +70,54 @@ std::string value_of(const std::string& text, const std::string& key) {
   return trimmed(text.substr(begin, text.find_first_of(",}", begin) - begin));
 }
 
+// A unit in brackets belongs to the name before it: "x [kpc] y [kpc]" are two names.
+std::vector<std::string> with_units(const std::vector<std::string_view>& words) {
+  std::vector<std::string> names;
+  char closing = 0;  // of the bracket that is open
+  for (const std::string_view word : words) {
+    const bool is_bracket = !word.empty() && (word.front() == '[' || word.front() == '(');
+    const bool opens = closing == 0 && !names.empty() && is_bracket;
+    const bool continues = closing != 0;
+    if (opens) closing = word.front() == '[' ? ']' : ')';
+    if (opens || continues) {
+      names.back() += ' ';
+      names.back() += word;
+    } else {
+      names.emplace_back(word);
+    }
+    if (closing != 0 && !word.empty() && word.back() == closing) closing = 0;
+  }
+  return names;
+}
+
 }  // namespace
+
+std::vector<std::string> names_of_columns(std::string_view line, std::size_t wanted) {
+  for (const char candidate : {',', ';', ' '}) {
+    const std::vector<std::string_view> words = split_cells(line, candidate);
+    // Lines of SPLASH end in a comma.
+    const auto end = words.end() - (words.size() > 2 && words.back().empty() ? 1 : 0);
+    const bool is_complete =
+        words.size() == wanted &&
+        std::none_of(words.begin() + 1, end, [](std::string_view word) { return word.empty(); });
+    if (is_complete) return {words.begin(), words.end()};
+  }
+  const bool is_empty = without_blanks(line).empty();
+  const std::vector<std::string> names =
+      is_empty ? std::vector<std::string>() : with_units(split_cells(line, ' '));
+  if (names.size() == wanted) return names;
+  const std::vector<std::string> far_apart = words_far_apart(line);
+  return far_apart.size() == wanted ? far_apart : std::vector<std::string>();
+}
+
+std::vector<std::string> names_in_line(const std::string_view line, bool begins_with_blank,
+                                       std::size_t wanted) {
+  std::vector<std::string> names = names_of_columns(line, wanted);
+  if (!names.empty() || !begins_with_blank || wanted == 0) return names;
+  names = names_of_columns(line, wanted - 1);
+  if (!names.empty()) names.insert(names.begin(), "");
+  return names;
+}
 
 std::vector<std::string> in_our_words(std::vector<std::string> names) {
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -109,6 +168,24 @@ std::vector<std::string> names_in_columns(std::string_view line) {
     if (name.empty()) return {};
     const bool is_cut = name.find('[') != std::string::npos && name.back() != ']';
     names.push_back(is_cut ? trimmed(name.substr(0, name.find('['))) : name);
+  }
+  return names;
+}
+
+std::vector<std::string> names_in_brackets(std::string_view line) {
+  std::vector<std::string> names;
+  std::size_t open = line.find('[');
+  while (open != std::string_view::npos) {
+    const std::size_t close = line.find(']', open);
+    if (close == std::string_view::npos) return {};
+    const std::string text = trimmed(std::string(line.substr(open + 1, close - open - 1)));
+    const std::size_t digits = std::min(text.find_first_not_of("0123456789"), text.size());
+    const std::string name = trimmed(text.substr(digits));
+    const bool is_numbered =
+        digits > 0 && text.substr(0, digits).find_first_not_of('0') != std::string::npos;
+    if (!is_numbered || name.empty()) return {};
+    names.push_back(name);
+    open = line.find('[', close);
   }
   return names;
 }

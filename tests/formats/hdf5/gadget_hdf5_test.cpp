@@ -183,10 +183,10 @@ TEST(GadgetHdf5, OfTypesThatAreAllLeftOutIsRefused) {
               AllOf(HasSubstr("no positions"), HasSubstr("37 particles of PartType0")));
 }
 
-TEST(GadgetHdf5, FieldsOfOtherWidthsAreLeftOutWithANote) {
+TEST(GadgetHdf5, FieldsOfManyWidthsAreLeftOutWithANote) {
   const TemporaryFolder folder;
   TestSnapshot snapshot = small_snapshot();
-  add_block(snapshot, "Elements", 1U, 9);
+  add_block(snapshot, "Elements", 1U, 65);
   write_hdf5(folder / "snap.hdf5", snapshot);
   const auto opened = open_snapshot(folder / "snap.hdf5");
   EXPECT_FALSE(has_field(*opened, 0, "Elements"));

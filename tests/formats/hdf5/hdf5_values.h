@@ -28,6 +28,40 @@ inline void write_values(const Hdf5Output& file, const std::string& path,
   H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
 }
 
+// Records of floating-point members, row by row, as h5py and astropy write tables.
+inline void write_records(const Hdf5Output& file, const std::string& path,
+                          const std::vector<std::string>& members,
+                          const std::vector<double>& values) {
+  const hsize_t rows = values.size() / members.size();
+  const Hdf5Handle<H5Tclose> record(H5Tcreate(H5T_COMPOUND, members.size() * sizeof(double)));
+  for (std::size_t i = 0; i < members.size(); ++i)
+    H5Tinsert(record.id(), members[i].c_str(), i * sizeof(double), H5T_NATIVE_DOUBLE);
+  const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &rows, nullptr));
+  const Hdf5Handle<H5Pclose> links(H5Pcreate(H5P_LINK_CREATE));
+  H5Pset_create_intermediate_group(links.id(), 1);
+  const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), path.c_str(), record.id(), space.id(),
+                                                links.id(), H5P_DEFAULT, H5P_DEFAULT));
+  H5Dwrite(dataset.id(), record.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+}
+
+// Lines of one length, as numpy's byte strings.
+inline void write_lines(const Hdf5Output& file, const std::string& path,
+                        const std::vector<std::string>& lines) {
+  constexpr std::size_t length = 64;
+  const hsize_t rows = lines.size();
+  std::string bytes;
+  for (const std::string& line : lines)
+    bytes += line + std::string(length - line.size(), '\0');
+  const Hdf5Handle<H5Tclose> type(H5Tcopy(H5T_C_S1));
+  H5Tset_size(type.id(), length);
+  const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &rows, nullptr));
+  const Hdf5Handle<H5Pclose> links(H5Pcreate(H5P_LINK_CREATE));
+  H5Pset_create_intermediate_group(links.id(), 1);
+  const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), path.c_str(), type.id(), space.id(),
+                                                links.id(), H5P_DEFAULT, H5P_DEFAULT));
+  H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data());
+}
+
 inline void make_group(const Hdf5Output& file, const std::string& name) {
   const Hdf5Handle<H5Gclose> group(
       H5Gcreate2(file.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));

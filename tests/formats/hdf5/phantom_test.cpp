@@ -297,14 +297,16 @@ TEST_F(HaloCatalog, AHaloThatIsNotThereIsRefusedWithWhatThereIs) {
 }
 
 TEST_F(HaloCatalog, SoapsMembershipsAreFoundInTheOrderOfTheSnapshot) {
-  for (int part = 0; part < 2; ++part) {
-    const Hdf5Output file = create_hdf5(folder_ / ("membership." + std::to_string(part) + ".hdf5"));
-    make_group(file, "Header");
-    write_attribute(file, "Header", "NumFilesPerSnapshot", {2});
-    write_values(file, "PartType1/GroupNr_bound", {-1, 7, 7, 3, 7}, 1, H5T_STD_I32LE);
+  for (const bool says_how_many : {true, false}) {
+    for (const char* const name : {"membership.0.hdf5", "membership.1.hdf5"}) {
+      const Hdf5Output file = create_hdf5(folder_ / name);
+      make_group(file, "Header");
+      if (says_how_many) write_attribute(file, "Header", "NumFilesPerSnapshot", {2});
+      write_values(file, "PartType1/GroupNr_bound", {-1, 7, 7, 3, 7}, 1, H5T_STD_I32LE);
+    }
+    EXPECT_THAT(places("membership.0.hdf5", 7, 1), ElementsAre(1, 2, 4, 6, 7, 9));
+    EXPECT_THAT(places("membership.0.hdf5", 7, 0), IsEmpty());
   }
-  EXPECT_THAT(places("membership.0.hdf5", 7, 1), ElementsAre(1, 2, 4, 6, 7, 9));
-  EXPECT_THAT(places("membership.0.hdf5", 7, 0), IsEmpty());
 }
 
 TEST_F(HaloCatalog, VelociraptorsHaloesHaveBoundAndUnboundParticlesByIdentifier) {
@@ -328,7 +330,7 @@ TEST_F(HaloCatalog, VelociraptorsHaloesHaveBoundAndUnboundParticlesByIdentifier)
 
 TEST_F(HaloCatalog, OtherFilesAreRefused) {
   write_bytes(folder_ / "halos.txt", "1 2 3\n");
-  EXPECT_THAT(refusal_of("halos.txt", 0), HasSubstr("not an HDF5 file"));
+  EXPECT_THAT(refusal_of("halos.txt", 0), HasSubstr("does not say which particles a halo has"));
   write_values(create_hdf5(folder_ / "other.hdf5"), "Coordinates", {1, 2, 3}, 3);
   EXPECT_THAT(refusal_of("other.hdf5", 0), HasSubstr("found no Group/GroupLenType"));
 }

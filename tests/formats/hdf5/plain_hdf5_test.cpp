@@ -188,7 +188,7 @@ TEST_F(PlainHdf5, StepsInTimeAreNotDrawnTogether) {
 TEST_F(PlainHdf5, RecordsAndRowsOfOtherShapesAreRefusedForWhatTheyAre) {
   {
     const Hdf5Output file = create_hdf5(path_);
-    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 2);
+    write_values(file, "pos", std::vector<double>(20), 5);
     const Hdf5Handle<H5Tclose> record(H5Tcreate(H5T_COMPOUND, 8));
     H5Tinsert(record.id(), "x", 0, H5T_NATIVE_DOUBLE);
     const hsize_t rows = 4;
@@ -196,8 +196,8 @@ TEST_F(PlainHdf5, RecordsAndRowsOfOtherShapesAreRefusedForWhatTheyAre) {
     const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), "particles", record.id(), space.id(),
                                                   H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   }
-  EXPECT_THAT(refusal(path_), AllOf(HasSubstr("particles (4, no plain numbers), pos (3 x 2)"),
-                                    HasSubstr("one number or three in each row")));
+  EXPECT_THAT(refusal(path_), AllOf(HasSubstr("particles (4 records), pos (4 x 5)"),
+                                    HasSubstr("read.columns = {x = ")));
 }
 
 TEST_F(PlainHdf5, AStepThatIsNotThereIsRefusedWithThoseThatAre) {
@@ -296,7 +296,8 @@ TEST_F(PlainHdf5, WithoutPositionsIsRefusedWithWhatIsExpected) {
     const Hdf5Output file = create_hdf5(path_);
     write_values(file, "mass", {1, 2, 3});
   }
-  EXPECT_THAT(refusal(path_), HasSubstr("or datasets of positions at its root"));
+  EXPECT_THAT(refusal(path_),
+              HasSubstr("no positions whose names tell what they are (it holds: mass (3))"));
 }
 
 TEST_F(PlainHdf5, PositionsWithoutRowsAreRefused) {

@@ -1,0 +1,166 @@
+#include "formats/hdf5/hdf5_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "formats/hdf5/hdf5_column.h"
+#include "formats/hdf5/units_of_columns.h"
+#include "formats/table_names.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+// Some rows of the datasets that a column is made of.
+struct ColumnPiece {
+  std::vector<std::vector<double>> terms;
+
+  ColumnPiece() = default;
+  ColumnPiece(const Hdf5File& file, const Hdf5Column& column, std::uint64_t first,
+              std::uint64_t rows) {
+    for (const Hdf5Column::Term& term : column.terms) {
+      terms.emplace_back(rows * term.dataset.values_per_row());
+      file.read_rows(term.dataset, first, rows, terms.back().data());
+    }
+  }
+  double value(const Hdf5Column& column, std::uint64_t place) const {
+    if (column.is_as_stored()) return terms.front()[place];
+    double value = column.constant;
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      value += column.terms[i].factor * terms[i][place];
+    return value;
+  }
+};
+
+std::vector<TableColumn> with_units(const std::vector<Hdf5Column>& columns,
+                                    const std::vector<std::string>& units) {
+  std::vector<TableColumn> named = names_of(columns);
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (units[i].empty() || !split_unit(named[i].name).unit.empty()) continue;
+    named[i].name += " [" + units[i] + "]";
+  }
+  return named;
+}
+
+}  // namespace
+
+Hdf5Table::Hdf5Table(const std::filesystem::path& path, const std::string& place,
+                     std::vector<std::string>& notes)
+    : file_(path) {
+  Hdf5Columns found = columns_in(file_, place);
+  columns_ = with_units(found.columns, units_of_columns(file_, place, found.columns));
+  sources_ = std::move(found.columns);
+  if (const auto guessed = guess_positions(columns_)) {
+    notes.push_back(fmt::format("dataset {} is taken for the positions", sources_[*guessed].owner));
+    columns_[*guessed].name = "position";
+  }
+  keep_those_of_particles(found.others);
+  if (!found.others.empty()) {
+    notes.push_back(
+        fmt::format("left out of {}, as they are not one or three numbers for each of {} "
+                    "particles: {}",
+                    place, rows_, fmt::join(found.others, ", ")));
+  }
+  if (rows_ == 0) {
+    throw DataError(fmt::format("{}: the positions in {} have no rows; expected particles",
+                                path.string(), place));
+  }
+}
+
+Hdf5Table::Hdf5Table(const std::filesystem::path& path, std::vector<Hdf5Column> named)
+    : file_(path) {
+  columns_ = with_units(named, units_of_columns(file_, "", named));
+  sources_ = std::move(named);
+  rows_ = sources_.front().rows.value_or(0);
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    if (sources_[i].rows == rows_) continue;
+    throw UsageError(fmt::format(
+        "{}: read.columns names {} with {} rows and {} with {}, expected columns of one length",
+        path.string(), sources_.front().name, rows_, sources_[i].name, *sources_[i].rows));
+  }
+}
+
+void Hdf5Table::keep_those_of_particles(std::vector<std::string>& left_out) {
+  if (const auto positions = find_positions(columns_))
+    rows_ = sources_[*positions].rows.value_or(0);
+  std::vector<TableColumn> columns;
+  std::vector<Hdf5Column> sources;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const std::vector<Hdf5Column::Term>& terms = sources_[i].terms;
+    const bool are_rows = std::all_of(
+        terms.begin(), terms.end(), [&](const auto& term) { return term.dataset.rows() == rows_; });
+    if (!are_rows || sources_[i].rows != rows_) {
+      left_out.push_back(sources_[i].name);
+      continue;
+    }
+    columns.push_back(columns_[i]);
+    sources.push_back(std::move(sources_[i]));
+  }
+  columns_ = std::move(columns);
+  sources_ = std::move(sources);
+}
+
+bool Hdf5Table::is_single_precision(std::size_t column) const {
+  const Hdf5Column& source = sources_[column];
+  if (source.terms.empty())
+    return static_cast<double>(static_cast<float>(source.constant)) == source.constant;
+  return source.is_as_stored() && source.terms.front().dataset.is_single_precision();
+}
+
+std::uint64_t Hdf5Table::rows_at_a_time(const std::vector<TableValue>& wanted) const {
+  constexpr std::uint64_t of_constants = 1U << 20;
+  std::uint64_t rows = std::max<std::uint64_t>(1, std::min(rows_, of_constants));
+  for (const TableValue& value : wanted) {
+    for (const Hdf5Column::Term& term : sources_[value.column].terms) {
+      file_.check_complete(term.dataset);
+      rows = std::min(rows, file_.rows_per_piece(term.dataset));
+    }
+  }
+  return rows;
+}
+
+void Hdf5Table::for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const {
+  const std::uint64_t piece = rows_at_a_time(wanted);
+  std::map<std::size_t, ColumnPiece> pieces;  // of each column
+  std::vector<double> values(wanted.size());
+  for (std::uint64_t first = 0; first < rows_; first += piece) {
+    const std::uint64_t rows = std::min(piece, rows_ - first);
+    pieces.clear();
+    for (const TableValue& value : wanted) {
+      if (pieces.count(value.column) > 0) continue;
+      pieces.emplace(value.column, ColumnPiece(file_, sources_[value.column], first, rows));
+    }
+    for (std::uint64_t row = 0; row < rows; ++row) {
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const Hdf5Column& source = sources_[wanted[i].column];
+        const std::uint64_t place = row * static_cast<std::uint64_t>(source.values) +
+                                    static_cast<std::uint64_t>(wanted[i].axis);
+        values[i] = pieces[wanted[i].column].value(source, place);
+      }
+      use(values.data());
+    }
+  }
+}
+
+// yt keeps identifiers as doubles: they are whole numbers as far as doubles have all of these.
+std::optional<std::vector<std::uint64_t>> Hdf5Table::integers(std::size_t column) const {
+  const Hdf5Column& source = sources_[column];
+  if (source.is_as_stored() && source.terms.front().dataset.kind == Hdf5Dataset::Kind::integer) {
+    return read_integers({{file_.path(), source.terms.front().dataset}});
+  }
+  constexpr double largest = 9007199254740992.0;
+  std::vector<std::uint64_t> numbers;
+  bool are_whole = true;
+  for_rows({{column, 0}}, [&](const double* value) {
+    const bool is_whole = *value >= 0 && *value <= largest && *value == std::floor(*value);
+    are_whole = are_whole && is_whole;
+    numbers.push_back(is_whole ? static_cast<std::uint64_t>(*value) : 0);
+  });
+  return are_whole ? std::optional(std::move(numbers)) : std::nullopt;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/hdf5/hdf5_columns.h"
+#include "formats/table.h"
+
+namespace splotchcl {
+
+// Columns of one place in a file, as long as the positions among them.
+class Hdf5Table : public Table {
+ public:
+  // All that there is. Notes what is left out.
+  Hdf5Table(const std::filesystem::path& path, const std::string& place,
+            std::vector<std::string>& notes);
+  // Those that somebody has named, whose units are theirs to say.
+  Hdf5Table(const std::filesystem::path& path, std::vector<Hdf5Column> named);
+
+  const std::vector<TableColumn>& columns() const override { return columns_; }
+  std::uint64_t rows() const override { return rows_; }
+  void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
+  bool is_single_precision(std::size_t column) const override;
+  std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
+
+ private:
+  void keep_those_of_particles(std::vector<std::string>& left_out);
+  // Rows that are read at a time, of columns that are there to their ends.
+  std::uint64_t rows_at_a_time(const std::vector<TableValue>& wanted) const;
+
+  Hdf5File file_;
+  std::vector<TableColumn> columns_;
+  std::vector<Hdf5Column> sources_;  // of the columns
+  std::uint64_t rows_ = 0;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,233 @@
+#include "formats/text/halo_lists.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/mapped_file.h"
+#include "formats/text/text_cells.h"
+#include "formats/text/text_lines.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+namespace fs = std::filesystem;
+using HaloIds = std::vector<std::uint64_t>;
+using WordsOfLine = std::vector<std::string_view>;
+
+std::optional<std::uint64_t> id_in(std::string_view word) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const bool is_id = error == std::errc() && end == word.data() + word.size();
+  return is_id ? std::optional(number) : std::nullopt;
+}
+
+[[noreturn]] void refuse_line(const fs::path& path, const TextLines& lines,
+                              const std::string& expected) {
+  throw DataError(
+      fmt::format("{}: line {}: found \"{}\", expected {}; the file is truncated or "
+                  "damaged: copy or write it again",
+                  path.string(), lines.number(), lines.line().substr(0, 40), expected));
+}
+
+void sort_once(HaloIds& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
+
+// The first column of AHF_halos, in the order of the haloes; none where it is not there.
+HaloIds ids_of_ahf_halos(const fs::path& path) {
+  HaloIds ids;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return ids;
+  const auto file = MappedFile::open(path);
+  for (TextLines lines(*file); lines.next();) {
+    if (lines.line().front() == '#') continue;
+    const WordsOfLine words = split_cells(lines.line(), ' ');
+    const auto id = id_in(words.front());
+    if (!id) refuse_line(path, lines, "a halo's identifier");
+    ids.push_back(*id);
+  }
+  return ids;
+}
+
+// Goes through AHF_particles: the number of haloes, then for each how many particles it has, often
+// with its identifier, and as many lines of a particle's identifier and type.
+class AhfParticles {
+ public:
+  AhfParticles(const fs::path& path, const MappedFile& file) : path_(path), lines_(file) {
+    if (!next() || words_.size() != 1) refuse_line(path_, lines_, "the number of haloes");
+    haloes_ = number(0, "the number of haloes");
+  }
+  std::uint64_t haloes() const { return haloes_; }
+  // Of the next halo; none where the file does not say.
+  std::optional<std::uint64_t> begin_halo() {
+    const char* const expected = "the number of a halo's particles";
+    if (!next()) refuse_line(path_, lines_, expected);
+    particles_ = number(0, expected);
+    if (words_.size() < 2) return std::nullopt;
+    return number(1, "a halo's identifier");
+  }
+  void skip_particles() {
+    for (; particles_ > 0; --particles_) {
+      if (!next_line()) refuse_line(path_, lines_, "a particle's identifier");
+    }
+  }
+  void read_particles(HaloIds& ids) {
+    for (; particles_ > 0; --particles_) {
+      if (!next()) refuse_line(path_, lines_, "a particle's identifier");
+      ids.push_back(number(0, "a particle's identifier"));
+    }
+  }
+
+ private:
+  bool next_line() {
+    while (lines_.next()) {
+      if (lines_.line().front() != '#') return true;
+    }
+    return false;
+  }
+  bool next() {
+    if (!next_line()) return false;
+    words_.clear();
+    for (const std::string_view word : split_cells(lines_.line(), ' '))
+      words_.push_back(word);
+    return true;
+  }
+  std::uint64_t number(std::size_t word, const char* expected) const {
+    const auto found = id_in(words_[word]);
+    if (!found) refuse_line(path_, lines_, expected);
+    return *found;
+  }
+
+  const fs::path& path_;
+  TextLines lines_;
+  WordsOfLine words_;
+  std::uint64_t haloes_ = 0, particles_ = 0;
+};
+
+fs::path with_kind(const fs::path& path, const std::string& before, const std::string& after) {
+  std::string name = path.filename().string();
+  const std::size_t at = name.rfind(before);
+  return path.parent_path() / name.replace(at, before.size(), after);
+}
+
+// Newer versions have identifiers beyond what select.halo may be; places count there.
+constexpr std::uint64_t largest_number = 2147483647;
+
+HaloIds read_ahf(const fs::path& halos, const fs::path& particles, std::uint64_t number) {
+  const auto file = MappedFile::open(particles);
+  AhfParticles list(particles, *file);
+  const HaloIds known = ids_of_ahf_halos(halos);
+  for (std::uint64_t halo = 0; halo < list.haloes(); ++halo) {
+    const std::uint64_t stated =
+        list.begin_halo().value_or(halo < known.size() ? known[halo] : halo);
+    const std::uint64_t own = stated > largest_number ? halo : stated;
+    if (own != number) {
+      list.skip_particles();
+      continue;
+    }
+    HaloIds ids;
+    list.read_particles(ids);
+    sort_once(ids);
+    return ids;
+  }
+  throw DataError(fmt::format("{}: no halo {} among its {}, expected a halo's identifier as in {}",
+                              particles.string(), number, list.haloes(),
+                              halos.filename().string()));
+}
+
+// Where columns of Rockstar's particles are, by the line that names them.
+struct ParticleColumns {
+  std::size_t id = 6, halo = 9;
+};
+
+void find_columns(std::string_view comment, ParticleColumns& columns) {
+  const WordsOfLine words = split_cells(comment.substr(1), ' ');
+  const auto id = std::find(words.begin(), words.end(), "particle_id");
+  const auto halo = std::find(words.begin(), words.end(), "external_haloid");
+  if (id == words.end() || halo == words.end()) return;
+  columns.id = static_cast<std::size_t>(id - words.begin());
+  columns.halo = static_cast<std::size_t>(halo - words.begin());
+}
+
+void append_rockstar(const fs::path& path, std::uint64_t number, HaloIds& ids) {
+  const auto file = MappedFile::open(path);
+  ParticleColumns columns;
+  for (TextLines lines(*file); lines.next();) {
+    if (lines.line().front() == '#') {
+      find_columns(lines.line(), columns);
+      continue;
+    }
+    const WordsOfLine words = split_cells(lines.line(), ' ');
+    const bool is_row = words.size() > std::max(columns.id, columns.halo);
+    const auto id = is_row ? id_in(words[columns.id]) : std::nullopt;
+    if (!id) refuse_line(path, lines, "a particle with its identifier and that of its halo");
+    // -1: of a halo that is in no list.
+    if (id_in(words[columns.halo]) == number) ids.push_back(*id);
+  }
+}
+
+// halos_33.0.particles, halos_33.1.particles, ... as far as they are there.
+std::vector<fs::path> rockstar_files(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const std::size_t dot = stem.rfind('.');
+  if (dot == std::string::npos || !id_in(stem.substr(dot + 1))) return {path};
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (int number = 0;; ++number) {
+    const fs::path file = path.parent_path() / fmt::format("{}.{}{}", stem.substr(0, dot), number,
+                                                           path.extension().string());
+    if (!fs::is_regular_file(file, ignored)) break;
+    files.push_back(file);
+  }
+  return std::find(files.begin(), files.end(), path) == files.end() ? std::vector<fs::path>{path}
+                                                                    : files;
+}
+
+HaloIds read_rockstar(const fs::path& path, std::uint64_t number) {
+  HaloIds ids;
+  for (const fs::path& file : rockstar_files(path))
+    append_rockstar(file, number, ids);
+  if (ids.empty()) {
+    throw DataError(fmt::format(
+        "{}: no particles of halo {}, expected a number that its column external_haloid has",
+        path.string(), number));
+  }
+  sort_once(ids);
+  return ids;
+}
+
+bool contains(const fs::path& path, const std::string& text) {
+  return path.filename().string().find(text) != std::string::npos;
+}
+
+}  // namespace
+
+HaloIds read_halo_list(const fs::path& path, std::uint64_t number) {
+  std::error_code ignored;
+  if (contains(path, "AHF_particles"))
+    return read_ahf(with_kind(path, "AHF_particles", "AHF_halos"), path, number);
+  if (contains(path, "AHF_halos")) {
+    const fs::path particles = with_kind(path, "AHF_halos", "AHF_particles");
+    if (fs::is_regular_file(particles, ignored)) return read_ahf(path, particles, number);
+  }
+  if (path.extension() == ".particles") return read_rockstar(path, number);
+  fs::path particles = path;
+  particles.replace_extension(".particles");
+  if (path.extension() == ".ascii" && fs::is_regular_file(particles, ignored))
+    return read_rockstar(particles, number);
+  throw DataError(fmt::format(
+      "{}: a text that does not say which particles a halo has, expected AHF_particles of AHF "
+      "(also "
+      "beside AHF_halos), .particles of Rockstar (also beside .ascii), or a catalog in HDF5; "
+      "select.ids takes lists of identifiers",
+      path.string()));
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace splotchcl {
+
+// The identifiers of a halo's particles, in increasing order, from lists of text: AHF's
+// AHF_particles (also by the name of the AHF_halos beside it), where a halo is known by its own
+// identifier, or by its place from 0 where these files have none below 2^31; Rockstar's .particles,
+// all of a catalog in several, by external_haloid. Throws DataError.
+std::vector<std::uint64_t> read_halo_list(const std::filesystem::path& path, std::uint64_t number);
+
+}  // namespace splotchcl

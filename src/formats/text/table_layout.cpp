@@ -1,0 +1,244 @@
+#include "formats/text/table_layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "formats/table_names.h"
+#include "formats/text/table_header.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+// What stands before the first row.
+struct HeaderLines {
+  std::vector<std::string_view> comments;
+  std::vector<std::string_view> bars;  // lines between bars
+  std::string_view line, whole_line;   // the last that is none of these; empty where there is none
+  bool begins_with_blank = false;
+  int others = 0;  // such lines
+};
+
+std::string_view without_mark(std::string_view comment) {
+  comment.remove_prefix(comment.substr(0, 2) == "//" ? 2 : 1);
+  return comment;
+}
+
+bool is_between_bars(std::string_view line) {
+  return line.size() > 2 && line.front() == '|' && line.back() == '|';
+}
+
+std::vector<std::string_view> cells_between_bars(std::string_view whole_line) {
+  const std::string_view line = without_blanks(whole_line);
+  return split_cells(line.substr(1, line.size() - 2), '|');
+}
+
+// The first names, with the units of the line below that has them.
+std::vector<std::string> names_between_bars(const std::vector<std::string_view>& bars,
+                                            std::size_t line_of_units) {
+  const std::vector<std::string_view> cells = cells_between_bars(bars.front());
+  std::vector<std::string> names(cells.begin(), cells.end());
+  if (line_of_units >= bars.size()) return names;
+  const std::vector<std::string_view> units = cells_between_bars(bars[line_of_units]);
+  for (std::size_t i = 0; i < std::min(names.size(), units.size()); ++i) {
+    if (!is_missing(units[i])) names[i] += " [" + std::string(units[i]) + "]";
+  }
+  return names;
+}
+
+// IPAC: what is below two bars belongs to the column between them.
+std::vector<CellPlace> places_between_bars(std::string_view whole_line) {
+  std::vector<CellPlace> places;
+  std::size_t bar = whole_line.find('|');
+  for (std::size_t next = whole_line.find('|', bar + 1); next != std::string_view::npos;
+       next = whole_line.find('|', bar + 1)) {
+    places.push_back({bar, next - bar});
+    bar = next;
+  }
+  return places;
+}
+
+// The comment whose words are as many as the columns: of several the last that names positions,
+// else the last.
+std::vector<std::string> names_in_comments(const std::vector<std::string_view>& comments,
+                                           std::size_t wanted) {
+  std::vector<std::string> last = names_by_number(comments, wanted);
+  if (!last.empty()) return last;
+  for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment) {
+    std::vector<std::string> names = names_in_columns(*comment);
+    if (names.size() != wanted) names = names_in_brackets(*comment);
+    if (names.size() != wanted)
+      names = in_our_words(names_of_columns(without_blanks(*comment), wanted));
+    if (names.size() != wanted) continue;
+    if (name_positions(names)) return names;
+    if (last.empty()) last = std::move(names);
+  }
+  return last;
+}
+
+std::vector<std::string> names_in(const HeaderLines& header, std::size_t wanted) {
+  if (header.line.empty()) return names_in_comments(header.comments, wanted);
+  std::vector<std::string> names =
+      in_our_words(names_in_line(header.line, header.begins_with_blank, wanted));
+  add_ecsv_units(header.comments, names);
+  return names;
+}
+
+// Whether the line of names has so many of them apart by tabs: cells may then be empty.
+bool has_tabs(const HeaderLines& header, std::size_t columns) {
+  if (header.line.find('\t') == std::string_view::npos) return false;
+  const std::vector<std::string_view> names = split_cells(header.whole_line, '\t');
+  return names.size() == columns && std::none_of(names.begin(), names.end(), is_missing);
+}
+
+// A line of a frame around a table: ===== ===== or |-----|.
+bool is_ruler(std::string_view line) {
+  const bool is_long = line.find("---") != std::string_view::npos ||
+                       line.find("===") != std::string_view::npos ||
+                       line.find("|-") != std::string_view::npos;
+  return is_long && line.find_first_not_of("-=+|: \t") == std::string_view::npos;
+}
+
+// The row's cells, and what is between them.
+void split_row(const TextLines& line, const HeaderLines& header, TableLayout& layout) {
+  CellFormat& format = layout.format;
+  if (is_between_bars(line.line())) {
+    format.separator = '|';
+    layout.cells = cells_of(line, format);
+    return;
+  }
+  format.separator = find_separator(line.line());
+  layout.cells = cells_of(line, format);
+  if (format.separator == ',' && !is_row(layout.cells)) {
+    // Commas may be those of the numbers.
+    format.separator = ' ';
+    layout.cells = cells_of(line, format);
+  }
+  const CellFormat tabs = {'\t', {}};
+  const std::vector<std::string_view> apart_by_tabs = cells_of(line, tabs);
+  if (format.separator == ' ' && is_row(apart_by_tabs) && has_tabs(header, apart_by_tabs.size())) {
+    format = tabs;
+    layout.cells = apart_by_tabs;
+  }
+  if (!header.bars.empty() && format.separator == ' ') {
+    format.places = places_between_bars(header.bars.front());
+    layout.cells = cells_of(line, format);
+  }
+}
+
+void name_columns(const HeaderLines& header, TableLayout& layout) {
+  if (!header.bars.empty()) {
+    // IPAC's types are between names and units.
+    const std::size_t units = layout.format.places.empty() ? header.bars.size() : 2;
+    layout.names = in_our_words(names_between_bars(header.bars, units));
+    if (layout.names.size() != layout.cells.size()) layout.names.clear();
+  } else if (layout.format.separator == '\t') {
+    const std::vector<std::string_view> names = split_cells(header.whole_line, '\t');
+    layout.names = in_our_words({names.begin(), names.end()});
+    add_ecsv_units(header.comments, layout.names);
+  } else {
+    layout.names = names_in(header, layout.cells.size());
+  }
+}
+
+// Looks for a row that can be the first of the table.
+class LayoutSearch {
+ public:
+  LayoutSearch(const MappedFile& file, const KnownOfTable& known) : lines_(file), known_(known) {
+    for (std::uint64_t i = 0; i < known.skip_lines && lines_.next_of_all(); ++i) {
+    }
+  }
+  std::optional<TableLayout> find();
+
+ private:
+  bool take(TableLayout layout);
+  void add_other_line();
+
+  TextLines lines_;
+  const KnownOfTable& known_;
+  HeaderLines header_;
+  std::optional<TableLayout> found_;
+  bool is_other_text_ = false;  // unless a line names positions
+};
+
+// True where no better one can follow.
+bool LayoutSearch::take(TableLayout layout) {
+  layout.first_row = lines_.start();
+  layout.lines_before = lines_.number() - 1;
+  name_columns(header_, layout);
+  const bool has_names = !layout.names.empty();
+  const bool is_wanted = known_.columns == 0 ? has_names && name_positions(layout.names)
+                                             : layout.cells.size() == known_.columns;
+  const bool may_be_first =
+      header_.others == 0 || (header_.others == 1 && (has_names || known_.columns > 0));
+  if (!found_ && !may_be_first) is_other_text_ = true;
+  if (!is_wanted && (found_ || is_other_text_)) return false;
+  if (found_) {
+    layout.notes.push_back(
+        fmt::format("the first row is line {}: numbers before it belong to something else",
+                    layout.lines_before + 1));
+  }
+  found_ = std::move(layout);
+  return is_wanted;
+}
+
+void LayoutSearch::add_other_line() {
+  header_.line = lines_.line();
+  header_.whole_line = lines_.whole();
+  header_.begins_with_blank = lines_.begins_with_blank();
+  ++header_.others;
+}
+
+std::optional<TableLayout> LayoutSearch::find() {
+  constexpr std::uint64_t farthest_row = 1U << 20;  // a text that is no table is given up
+  constexpr int lines_looked_at_after_a_row = 64;
+  int after = 0;
+  while (lines_.next() && lines_.start() < farthest_row && after < lines_looked_at_after_a_row) {
+    const std::string_view line = lines_.line();
+    if (line.find('\0') != std::string_view::npos) break;
+    if (found_) ++after;
+    if (is_ruler(line)) continue;
+    if (is_comment_line(line)) {
+      header_.comments.push_back(without_mark(line));
+      continue;
+    }
+    TableLayout layout;
+    split_row(lines_, header_, layout);
+    if (is_row(layout.cells)) {
+      if (take(std::move(layout))) break;
+      // What is before it names nothing that follows.
+      header_ = HeaderLines();
+    } else if (is_between_bars(line)) {
+      header_.bars.push_back(lines_.whole());
+    } else {
+      add_other_line();
+    }
+  }
+  return std::move(found_);
+}
+
+}  // namespace
+
+bool is_comment_line(std::string_view line) {
+  return line.front() == '#' || line.front() == '%' || line.front() == '!' ||
+         line.front() == '\\' || line.substr(0, 2) == "//" || is_ruler(line);
+}
+
+bool name_positions(const std::vector<std::string>& names) {
+  std::vector<TableColumn> columns;
+  for (const std::string& name : names)
+    columns.push_back({name, 1});
+  return find_positions(columns).has_value();
+}
+
+std::optional<TableLayout> find_layout(const MappedFile& file, const KnownOfTable& known) {
+  if (known.skip_lines == 0) {
+    if (auto layout = find_described_layout(file)) return layout;
+    if (auto layout = find_xyz_layout(file)) return layout;
+  }
+  return LayoutSearch(file, known).find();
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,147 @@
+#include "formats/text/text_cells.h"
+
+#include <fast_float/fast_float.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+
+#include "formats/snapshot_format.h"
+#include "snapshot/field_names.h"
+
+namespace splotchcl {
+namespace {
+
+std::string_view without_bars(std::string_view line) {
+  if (!line.empty() && line.front() == '|') line.remove_prefix(1);
+  if (!line.empty() && line.back() == '|') line.remove_suffix(1);
+  return line;
+}
+
+// Takes the next cell off the line.
+std::string_view take_cell(std::string_view& line, char separator, bool& has_more) {
+  if (separator == ' ') line = without_blanks(line);
+  std::size_t end = 0;
+  bool is_quoted = false;
+  for (; end < line.size(); ++end) {
+    const char c = line[end];
+    if (c == '"') is_quoted = !is_quoted;
+    if (is_quoted) continue;
+    if (separator == ' ' ? c == ' ' || c == '\t' : c == separator) break;
+  }
+  std::string_view cell = without_blanks(line.substr(0, end));
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
+    cell = without_blanks(cell.substr(1, cell.size() - 2));
+  }
+  has_more = end < line.size();
+  line.remove_prefix(has_more ? end + 1 : end);
+  return cell;
+}
+
+// Where a tab at the beginning or end means an empty cell, or blanks keep places, all of it.
+std::string_view text_of(const TextLines& line, const CellFormat& format) {
+  if (!format.places.empty() || format.separator == '\t') return line.whole();
+  return format.separator == '|' ? without_bars(line.line()) : line.line();
+}
+
+std::optional<double> parse_plain(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = fast_float::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  return is_number ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+const char* CellFormat::name() const {
+  if (!places.empty()) return "columns of fixed places";
+  if (separator == ',') return "commas between columns";
+  if (separator == '\t') return "tabs between columns";
+  if (separator == '|') return "bars between columns";
+  return separator == ';' ? "semicolons between columns" : "white space between columns";
+}
+
+CellReader::CellReader(const TextLines& line, const CellFormat& format)
+    : format_(format), rest_(text_of(line, format)) {}
+
+bool CellReader::next() {
+  if (!format_.places.empty()) {
+    if (place_ == format_.places.size()) return false;
+    const CellPlace& place = format_.places[place_++];
+    const bool is_there = place.first < rest_.size();
+    cell_ = is_there ? without_blanks(rest_.substr(place.first, place.count)) : std::string_view();
+    return true;
+  }
+  if (!has_more_) return false;
+  cell_ = take_cell(rest_, format_.separator, has_more_);
+  return true;
+}
+
+std::vector<std::string_view> cells_of(const TextLines& line, const CellFormat& format) {
+  std::vector<std::string_view> cells;
+  CellReader reader(line, format);
+  while (cells.size() < most_columns && reader.next())
+    cells.push_back(reader.cell());
+  return cells;
+}
+
+std::vector<std::string_view> split_cells(std::string_view line, char separator) {
+  std::vector<std::string_view> cells;
+  for (bool has_more = true; has_more && cells.size() < most_columns;)
+    cells.push_back(take_cell(line, separator, has_more));
+  return cells;
+}
+
+char find_separator(std::string_view line) {
+  bool is_quoted = false;
+  char separator = ' ';
+  for (const char c : line) {
+    if (c == '"') is_quoted = !is_quoted;
+    if (!is_quoted && c == ';') return c;
+    if (!is_quoted && c == ',') separator = c;
+  }
+  return separator;
+}
+
+bool is_missing(std::string_view cell) {
+  constexpr std::array<std::string_view, 7> words = {"na", "n/a", "null",  "none",
+                                                     "--", "---", "masked"};
+  return cell.empty() || std::any_of(words.begin(), words.end(), [cell](std::string_view word) {
+           return equal_ignoring_case(cell, word);
+         });
+}
+
+std::optional<double> parse_cell(std::string_view cell) {
+  if (is_missing(cell)) return std::numeric_limits<double>::quiet_NaN();
+  if (cell.front() == '+') cell.remove_prefix(1);
+  if (const auto value = parse_plain(cell)) return value;
+  // Of countries with a decimal comma: no cell between commas has one.
+  const std::size_t comma = cell.find(',');
+  if (comma != std::string_view::npos && cell.size() <= 64) {
+    std::string with_point(cell);
+    with_point[comma] = '.';
+    return parse_plain(with_point);
+  }
+  // Fortran's double precision: 1.5D+03.
+  const std::size_t exponent = cell.find_first_of("dD");
+  if (exponent == std::string_view::npos || exponent == 0 || cell.size() > 64) return std::nullopt;
+  std::string with_e(cell);
+  with_e[exponent] = 'e';
+  return parse_plain(with_e);
+}
+
+bool is_row(const std::vector<std::string_view>& cells) {
+  constexpr std::ptrdiff_t fewest = 3;
+  return std::count_if(cells.begin(), cells.end(), [](std::string_view cell) {
+           return !is_missing(cell) && parse_cell(cell).has_value();
+         }) >= fewest;
+}
+
+bool are_whole(const std::vector<std::string_view>& cells) {
+  return std::all_of(cells.begin(), cells.end(), [](std::string_view cell) {
+    return cell.find_first_not_of("0123456789") == std::string_view::npos;
+  });
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "formats/text/text_lines.h"
+
+namespace splotchcl {
+
+// Where a cell is in each line.
+struct CellPlace {
+  std::size_t first = 0, count = 0;
+};
+
+// How the cells of a line are apart.
+struct CellFormat {
+  // A blank: any white space. A bar: those at both ends of the line count for nothing.
+  char separator = ' ';
+  std::vector<CellPlace> places;  // not empty: each has its place instead
+
+  const char* name() const;  // of what is between columns
+};
+
+// Takes the cells of a line one by one, without quotes and blanks around them.
+class CellReader {
+ public:
+  CellReader(const TextLines& line, const CellFormat& format);
+  bool next();
+  std::string_view cell() const { return cell_; }
+
+ private:
+  const CellFormat& format_;
+  std::string_view rest_, cell_;
+  std::size_t place_ = 0;
+  bool has_more_ = true;
+};
+
+// Of one line, or of its text; no more than any table has.
+std::vector<std::string_view> cells_of(const TextLines& line, const CellFormat& format);
+std::vector<std::string_view> split_cells(std::string_view line, char separator);
+
+// The separator of a line: a semicolon or comma outside of quotes, else white space. Between
+// semicolons a comma may be that of a number.
+char find_separator(std::string_view line);
+
+// Whether a cell says that there is no number.
+bool is_missing(std::string_view cell);
+// A number; not-a-number where the cell says that there is none.
+std::optional<double> parse_cell(std::string_view cell);
+
+// Whether there are as many numbers as a particle has at least.
+bool is_row(const std::vector<std::string_view>& cells);
+// Whether all are digits alone.
+bool are_whole(const std::vector<std::string_view>& cells);
+
+}  // namespace splotchcl

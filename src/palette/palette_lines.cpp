@@ -1,0 +1,63 @@
+#include "palette/palette_lines.h"
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+
+std::string_view without_spaces(std::string_view text) {
+  constexpr std::string_view spaces = " \t\r\v\f";
+  const std::size_t begin = text.find_first_not_of(spaces);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(spaces) - begin + 1);
+}
+
+std::vector<PaletteLine> palette_lines(std::string_view text) {
+  std::vector<PaletteLine> lines;
+  std::size_t number = 0;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    lines.push_back({without_spaces(text.substr(0, end)), ++number});
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return lines;
+}
+
+std::vector<std::string_view> palette_words(std::string_view text) {
+  constexpr std::string_view between = " \t\r\v\f,;";
+  std::vector<std::string_view> words;
+  for (std::size_t begin = text.find_first_not_of(between); begin != std::string_view::npos;
+       begin = text.find_first_not_of(between)) {
+    text.remove_prefix(begin);
+    words.push_back(text.substr(0, text.find_first_of(between)));
+    text.remove_prefix(words.back().size());
+  }
+  return words;
+}
+
+std::optional<float> palette_number(std::string_view word) {
+  float value = 0;
+  const char* const end = word.data() + word.size();
+  const auto result = fast_float::from_chars(word.data(), end, value);
+  const bool is_number = result.ec == std::errc() && result.ptr == end;
+  return is_number ? std::optional(value) : std::nullopt;
+}
+
+std::string shown(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string clean;
+  for (const char c : text.substr(0, longest)) {
+    if (c >= ' ' && c <= '~') clean += c;
+  }
+  return clean;
+}
+
+void refuse_palette(const std::string& name, std::size_t line, const std::string& problem) {
+  throw DataError(fmt::format("{}:{}: {}", name, line, problem));
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace splotchcl {
+
+// A line of a palette file.
+struct PaletteLine {
+  std::string_view text;  // without spaces around it
+  std::size_t number = 0;
+};
+
+std::vector<PaletteLine> palette_lines(std::string_view text);
+
+// Apart by white space, commas or semicolons.
+std::vector<std::string_view> palette_words(std::string_view text);
+
+std::string_view without_spaces(std::string_view text);
+std::optional<float> palette_number(std::string_view word);
+
+// As a message may show it: what is no text is left out.
+std::string shown(std::string_view text);
+
+[[noreturn]] void refuse_palette(const std::string& name, std::size_t line,
+                                 const std::string& problem);
+
+}  // namespace splotchcl

@@ -1,0 +1,162 @@
+#include <cmath>
+
+#include "formats/snapshot_checks.h"
+#include "snapshot/field_names.h"
+#include "splotchcl/snapshot_file.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace splotchcl::test;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class TextForm : public ::testing::Test {
+ protected:
+  std::unique_ptr<Snapshot> open(const std::string& text,
+                                 const SnapshotOptions& options = {}) const {
+    write_bytes(path_, text);
+    return open_snapshot(path_, options);
+  }
+  std::string refusal_of(const std::string& text, const SnapshotOptions& options = {}) const {
+    try {
+      open(text, options);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return {};
+  }
+  static std::string unit_of(const Snapshot& snapshot, const std::string& field) {
+    return require_field(snapshot.info(), 0, field).unit;
+  }
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "table";
+};
+
+TEST_F(TextForm, CountsBeforeTheNamesAreLeftOut) {
+  const auto snapshot =
+      open("Np;Nbound;Time [s]\n2;0;0.5\nPos.x [m];Pos.y [m];Pos.z [m];Idp\n1;2;3;7\n4;5;6;8\n");
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_EQ(unit_of(*snapshot, "position"), "m");
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("the first row is line 4")));
+}
+
+TEST_F(TextForm, TextBeforeNamesOfPositionsIsLeftOut) {
+  const auto snapshot = open("A run of mine\nmade on a day\nx y z mass\n1 2 3 7\n4 5 6 8\n");
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
+  EXPECT_THAT(refusal_of("A run of mine\nmade on a day\n1 2 3 7\n4 5 6 8\n"),
+              HasSubstr("no table"));
+}
+
+TEST_F(TextForm, RowsOfOtherLengthsBeforeTheNamedOnesAreLeftOut) {
+  const auto snapshot =
+      open("2 0 1\n0.5 1.66\n0 0 0 0 0 0 1\n1 2 3 7\n4 5 6 8\n", {{"x", "y", "z", "mass"}});
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("the first row is line 4")));
+}
+
+TEST_F(TextForm, LinesToSkipAreNoPartOfTheTable) {
+  const std::string text = "x y z\n9 9 9\n\n1 2 3\n4 5 6\n";
+  EXPECT_THAT(absolute_positions(*open(text, {{"x", "y", "z"}, 3}), 0),
+              ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(absolute_positions(*open("junk, junk\n1 2 3 4\nx y z\n1 2 3\n", {{}, 2}), 0),
+              ElementsAre(1, 2, 3));
+  EXPECT_THAT(refusal_of(text, {{"x", "y", "z"}, 5}),
+              AllOf(HasSubstr("no table after 5 lines"), HasSubstr("read.skip_lines")));
+}
+
+TEST_F(TextForm, LinesOfBinaryFilesAreNotSkipped) {
+  write_bytes(path_, std::string("\x89HDF\r\n\x1a\n", 8));
+  EXPECT_THAT(
+      [&] {
+        open_snapshot(path_, {{}, 1});
+      },
+      ::testing::ThrowsMessage<UsageError>(HasSubstr("read.skip_lines is for tables")));
+}
+
+TEST_F(TextForm, ColumnsMayHaveOtherNames) {
+  const auto snapshot =
+      open("a [kpc],b,c,Mvir,x\n1,2,3,7,0\n4,5,6,8,0\n", {{"x=a", "y=B", "z=c", "mass=Mvir"}});
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
+  EXPECT_EQ(unit_of(*snapshot, "position"), "kpc");
+  EXPECT_THAT(refusal_of("a,b,c\n1,2,3\n", {{"x=a", "y=b", "z=d"}}),
+              AllOf(HasSubstr("no such column"), HasSubstr("a, b, c")));
+  EXPECT_THAT(refusal_of("a,b,c\n1,2,3\n", {{"x=a", "y", "z"}}), HasSubstr("expected it for all"));
+}
+
+TEST_F(TextForm, ColumnsWithoutNamesHaveNumbers) {
+  const auto snapshot = open("9 1 2 3\n9 4 5 6\n", {{"x=2", "y=3", "z=4"}});
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST_F(TextForm, DecimalCommasBetweenBlanksAndTabsAreRead) {
+  EXPECT_THAT(absolute_positions(*open("x y z\n1,5 2,25 -3,5\n4,5 5 6e1\n"), 0),
+              ElementsAre(1.5, 2.25, -3.5, 4.5, 5, 60));
+  EXPECT_THAT(absolute_positions(*open("x\ty\tz\n1,5\t2,25\t-3,5\n"), 0),
+              ElementsAre(1.5, 2.25, -3.5));
+}
+
+TEST_F(TextForm, TablesOfIpacAreReadByTheirPlaces) {
+  const auto snapshot = open(
+      "\\catalog='mine'\n\\ made up\n"
+      "|    x    |   y |   z |  name  | hsml |\n"
+      "| double  | real| real|  char  | real |\n"
+      "|  kpc    | kpc | kpc |        |  pc  |\n"
+      "|  null   |     |     |        |      |\n"
+      "   1.5       2     3    a b c     500 \n"
+      "   4         5     6              700 \n");
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1.5, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.7F));
+  EXPECT_EQ(unit_of(*snapshot, "position"), "kpc");
+}
+
+TEST_F(TextForm, TablesBetweenBarsAreRead) {
+  const auto snapshot = open(
+      "| x | y | z | mass |\n|---|--:|---|------|\n| 1 | 2 | 3 | 7 |\n"
+      "| 4 | 5 | 6 |   |\n");
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  const auto mass = values_of(snapshot->read(0, "mass"));
+  EXPECT_EQ(mass[0], 7);
+  EXPECT_TRUE(std::isnan(mass[1]));
+}
+
+TEST_F(TextForm, TablesBetweenRulersAreRead) {
+  EXPECT_THAT(absolute_positions(*open("=== === ===\n x   y   z\n=== === ===\n  1   2   3\n"
+                                       "  4   5   6\n=== === ===\n"),
+                                 0),
+              ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST_F(TextForm, TablesThatAreDescribedByteByByteAreRead) {
+  const std::string dashes(80, '-');
+  const auto snapshot = open(
+      "Title: made up\n" + std::string(80, '=') + "\nByte-by-byte Description of file: t.dat\n" +
+      dashes + "\n   Bytes Format Units   Label   Explanations\n" + dashes +
+      "\n   1-  4 F4.1   kpc     x       Right of the middle\n"
+      "   5-  8 F4.1   kpc     y       Above the middle,\n"
+      "                                and so on\n"
+      "   9- 12 F4.1   kpc     z       Before it\n"
+      "      13 A1     ---     Type    One letter\n"
+      "  14- 17 F4.1   ---     mass    ?=- Its mass\n" +
+      dashes + "\nNote (1): none\n" + dashes + "\n 1.0 2.0 3.0A 7.0\n-4.0-5.0-6.0B\n");
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, -4, -5, -6));
+  EXPECT_EQ(unit_of(*snapshot, "position"), "kpc");
+  EXPECT_TRUE(std::isnan(snapshot->read(0, "mass")[1]));
+}
+
+TEST_F(TextForm, NumbersOfColumnsInNamesAreNoPartOfThem) {
+  for (const char* const header :
+       {"#scale(0) x(1) y(2) z(3)", "# 1:scale 2:x 3:y 4:z", "# [1]=scale [2]=x [3]=y [4]=z",
+        "# [01 scale] [02    x] [03    y] [04    z]"}) {
+    EXPECT_THAT(absolute_positions(*open(std::string(header) + "\n1 1 2 3\n1 4 5 6\n"), 0),
+                ElementsAre(1, 2, 3, 4, 5, 6))
+        << header;
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl

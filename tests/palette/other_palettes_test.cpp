@@ -1,0 +1,143 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "palette/palette_file.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string refusal_of_palette(const std::string& text, const std::string& name) {
+  try {
+    parse_palette(text, name);
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+const std::vector<Rgb> red_white_blue = {{1, 0, 0}, {1, 1, 1}, {0, 0, 1}};
+
+class PaletteOfThree : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
+
+TEST_P(PaletteOfThree, IsReadAsItIs) {
+  const auto& [name, text] = GetParam();
+  EXPECT_EQ(parse_palette(text, name).emission, red_white_blue);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, PaletteOfThree,
+    ::testing::Values(std::pair("255.txt", "255 0 0\n255 255 255\n0 0 255\n"),
+                      std::pair("commas.txt", "1.0, 0.0, 0.0\n1, 1, 1\n0;0;1\n"),
+                      std::pair("names.csv", "r,g,b\n1,0,0\n1,1,1\n0,0,1\n"),
+                      std::pair("ncl.rgb", "ncolors=3\n# r g b\n255 0 0\n255 255 255\n0 0 255\n"),
+                      std::pair("alpha.txt", "1 0 0 1\n1 1 1 1\n0 0 1 1\n"),
+                      std::pair("alpha_255.txt", "255 0 0 255\n255 255 255 255\n0 0 255 255\n"),
+                      std::pair("places.txt", "0 255 0 0\n50 255 255 255\n100 0 0 255\n"),
+                      std::pair("hex.txt", "#ff0000\n#FFFFFF\n#0000ff\n"),
+                      std::pair("hex_alone.txt", "ff0000\nffffff\n0000ffff\n"),
+                      std::pair("mine.gpl",
+                                "GIMP Palette\nName: mine\nColumns: 3\n#\n255   0   0\tred 1\n"
+                                "255 255 255\tUntitled\n  0   0 255\n"),
+                      std::pair("mine.cpt",
+                                "# COLOR_MODEL = RGB\n0 255 0 0 1 255 255 255\n"
+                                "1 255/255/255 2 0/0/255 ;label\nB 0 0 0\nF 1 1 1\nN 9 9 9\n"),
+                      std::pair("map.json",
+                                "[{\"Name\":\"mine\",\"ColorSpace\":\"RGB\",\"RGBPoints\":"
+                                "[-1,1,0,0,0,1,1,1,1,0,0,1]}]\n"),
+                      std::pair("map.xml",
+                                "<?xml version=\"1.0\"?><ColorMaps>\n<ColorMap name=\"a\" "
+                                "space=\"RGB\"><Point x=\"0\" o=\"1\" r=\"1\" g=\"0\" b=\"0\"/>\n"
+                                "<Point x='.5' r='1' g='1' b='1'/><Point x=\"1\" r=\"0\" g=\"0\" "
+                                "b=\"1\"></Point></ColorMap></ColorMaps>\n")));
+
+TEST(OtherPalettes, AtUnevenPlacesHaveTheirColorsThere) {
+  const Palette palette = parse_palette("0 1 0 0\n0.25 1 1 1\n1 0 0 1\n", "p.txt");
+  EXPECT_NEAR(sample_knots(palette.emission, 0.25)[1], 1, 0.01);
+  EXPECT_NEAR(sample_knots(palette.emission, 0.625)[0], 0.5, 0.01);
+}
+
+TEST(OtherPalettes, MayHaveStepsAsThoseOfGmt) {
+  const Palette palette = parse_palette("0 255 0 0 1 255 0 0\n1 0 0 255 4 0 0 255\n", "p.cpt");
+  EXPECT_EQ(sample_knots(palette.emission, 0.2)[0], 1);
+  EXPECT_EQ(sample_knots(palette.emission, 0.3)[0], 0);
+}
+
+TEST(OtherPalettes, OfSaoimageHavePlacesOfTheirOwnForEachColor) {
+  const Palette palette = parse_palette(
+      "# SAOimage color table\nPSEUDOCOLOR\nRED:\n(0,0)(.5,1)\n(1,1)\nGREEN:\n(0,0)(1,1)\n"
+      "BLUE:\n(0,1)(1,0)\n",
+      "a.sao");
+  const auto color = sample_knots(palette.emission, 0.25);
+  EXPECT_NEAR(color[0], 0.5, 0.01);
+  EXPECT_NEAR(color[1], 0.25, 0.01);
+  EXPECT_NEAR(color[2], 0.75, 0.01);
+}
+
+TEST(OtherPalettes, OfBytesAreTripletsForAdobeAndPlanesForImageJ) {
+  std::string triplets(768, '\0'), planes(768, '\0');
+  triplets[3 * 7 + 1] = '\x33';
+  planes[256 + 7] = '\x33';
+  for (const auto& palette : {parse_palette(triplets, "a.act"), parse_palette(planes, "a.lut"),
+                              parse_palette("ICOL" + std::string(28, '\0') + planes, "a.LUT")}) {
+    ASSERT_EQ(palette.emission.size(), 256U);
+    EXPECT_THAT(palette.emission[7], ElementsAre(0, 0.2F, 0));
+    EXPECT_THAT(palette.emission[8], ElementsAre(0, 0, 0));
+  }
+}
+
+TEST(OtherPalettes, OfAdobeMaySayHowManyColorsTheyHave) {
+  std::string bytes(772, '\0');
+  bytes[769] = 5;
+  EXPECT_EQ(parse_palette(bytes, "a.act").emission.size(), 5U);
+}
+
+TEST(OtherPalettes, OfBytesThatAreNoneAreRefusedWithoutThem) {
+  const std::string message =
+      refusal_of_palette(std::string("\x93NUMPY\x01\0v\0\xff\xfe", 12), "map.npy");
+  EXPECT_THAT(message, AllOf(HasSubstr("found 12 bytes that are no text"),
+                             HasSubstr("numpy.savetxt"), Not(HasSubstr("NUMPY\x01"))));
+}
+
+TEST(OtherPalettes, OfFewColorsInOtherSpacesAreRefused) {
+  EXPECT_THAT(refusal_of_palette("[{\"ColorSpace\":\"Diverging\",\"RGBPoints\":[0,0,0,1,1,1,0,0]}]",
+                                 "a.json"),
+              HasSubstr("2 colors to be joined in the space Diverging"));
+  EXPECT_THAT(refusal_of_palette("# COLOR_MODEL = HSV\n0 0 1 1 1 360 1 1\n", "a.cpt"),
+              HasSubstr("expected COLOR_MODEL = RGB"));
+}
+
+TEST(OtherPalettes, ThatAreDamagedAreRefused) {
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"a.json", "[{\"RGBPoints\":[0,0,0]}]"},
+           {"a.json", "{\"RGBPoints\":"},
+           {"a.json", "[]"},
+           {"a.json", "[{\"RGBPoints\":[0,0,2,0]}]"},
+           {"a.xml", "<ColorMaps></ColorMaps>"},
+           {"a.xml", "<ColorMap name=\"a\"></ColorMap>"},
+           {"a.xml", "<ColorMap><Point x=\"0\" r=\"1\"/></ColorMap>"},
+           {"a.cpt", "1 0 0 0 0 1 1 1\n"},
+           {"a.cpt", "0 0 0 0 1 1 1\n"},
+           {"a.cpt", ""},
+           {"a.sao", "PSEUDOCOLOR\nRED:\n(0,0)(1\n"},
+           {"a.sao", "PSEUDOCOLOR\nRED:\n(0,0)(1,1)\n"},
+           {"a.gpl", "GIMP Palette\nName: a\n"},
+           {"a.gpl", "GIMP Palette\n1 2\n"},
+           {"a.gpl", "GIMP Palette\n1 2 256\n"}}) {
+    const std::string message = refusal_of_palette(text, name);
+    EXPECT_THAT(message, AllOf(HasSubstr(name), HasSubstr("expected"), Not(HasSubstr("\n"))))
+        << text;
+  }
+}
+
+}  // namespace
+}  // namespace splotchcl
