@@ -132,7 +132,8 @@ void replace_colors(const std::string& label, const IsGiven& is_given, Component
                     Origins& origins) {
   const bool are_both = !component.color_vector.empty() && !component.color.field.empty();
   if (!are_both || !component.absorption_palette.empty()) return;
-  const bool gives_vector = is_given(label + ".vector"), gives_field = is_given(label + ".field");
+  const bool gives_vector = is_given(label + ".vector"),
+             gives_field = is_given(label + ".field") || is_given(label + ".formula");
   if (gives_vector && !gives_field) {
     component.color = FieldMap();
     forget(label, is_given, origins);
