@@ -79,7 +79,7 @@ def _load_pynbody(snapshot: Any, fields: Sequence[str]) -> Loaded:
         if kind is None:
             continue
         particles = snapshot[family]
-        there = {*particles.keys(), *particles.loadable_keys()}
+        there = _pynbody_arrays(particles)
         arrays = {ours: particles[name] for ours, name in _PYNBODY_FIELDS.items() if name in there}
         for name in fields:
             # What one family stores is not derived for another.
@@ -93,6 +93,16 @@ def _load_pynbody(snapshot: Any, fields: Sequence[str]) -> Loaded:
     scale = snapshot.properties.get("a")
     loaded.time = loaded.scale_factor = None if scale is None else float(scale)
     return loaded
+
+
+# What the file holds and what was set, but not what happens to have been derived before: else it
+# would matter what was looked at. Temperatures are derived wherever there are energies.
+def _pynbody_arrays(particles: Any) -> set[str]:
+    there = {name for name in particles.keys() if not particles.is_derived_array(name)}
+    there.update(particles.loadable_keys())
+    if "u" in there and "temp" in particles.derivable_keys():
+        there.add("temp")
+    return there
 
 
 # How far a kernel reaches, in its smoothing lengths. pynbody's own are half of it; those that it
