@@ -36,14 +36,14 @@ void check_ids_compared(const TypeFields& fields, const Formula& formula, const 
 }  // namespace
 
 Formula condition_on(const TypeFields& fields, const std::string& text, const std::string& key) {
-  if (auto comparisons = parse_comparisons(text)) {
-    const auto& names = comparisons->fields();
-    const bool are_fields = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-      return canonical_field_name(name) == "id" || fields.has_plain(name);
-    });
-    if (are_fields) return std::move(*comparisons);
-  }
-  return parse_condition(text, fields.what(key));
+  const std::optional<Formula> comparisons = parse_comparisons(text);
+  if (!comparisons) return parse_condition(text, fields.what(key));
+  const auto& names = comparisons->fields();
+  const bool are_fields = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return canonical_field_name(name) == "id" || fields.has_plain(name);
+  });
+  const bool are_formulas = std::any_of(names.begin(), names.end(), Formula::may_be);
+  return are_fields || !are_formulas ? *comparisons : Formula::parse(text, fields.what(key));
 }
 
 void check_formula(const TypeFields& fields, const Formula& formula, const std::string& key) {

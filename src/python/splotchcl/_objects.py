@@ -64,6 +64,7 @@ _PYNBODY_FIELDS: _Names = {
     "density": "rho",
     "smoothing_length": "smooth",
     "temperature": "temp",
+    "internal_energy": "u",
 }
 
 
@@ -79,7 +80,7 @@ def _load_pynbody(snapshot: Any, fields: Sequence[str]) -> Loaded:
         if kind is None:
             continue
         particles = snapshot[family]
-        there = _pynbody_arrays(particles)
+        there = _pynbody_arrays(particles, bool(stored))
         arrays = {ours: particles[name] for ours, name in _PYNBODY_FIELDS.items() if name in there}
         for name in fields:
             # What one family stores is not derived for another.
@@ -95,13 +96,12 @@ def _load_pynbody(snapshot: Any, fields: Sequence[str]) -> Loaded:
     return loaded
 
 
-# What the file holds and what was set, but not what happens to have been derived before: else it
-# would matter what was looked at. Temperatures are derived wherever there are energies.
-def _pynbody_arrays(particles: Any) -> set[str]:
-    there = {name for name in particles.keys() if not particles.is_derived_array(name)}
-    there.update(particles.loadable_keys())
-    if "u" in there and "temp" in particles.derivable_keys():
-        there.add("temp")
+# What the file holds, but not what happens to have been derived of it before: else it would matter
+# what was looked at. Temperatures follow from internal energies here. Without a file all was set.
+def _pynbody_arrays(particles: Any, is_of_file: bool) -> set[str]:
+    there = {*particles.keys(), *particles.loadable_keys()}
+    if is_of_file:
+        there -= {*particles.derivable_keys()} - {*particles.loadable_keys()}
     return there
 
 
