@@ -12,7 +12,7 @@ ValueType<std::string> formula_text() {
     if (found) Formula::parse(*found, "formula");
     return found;
   };
-  return {"a formula such as \"log10(density * temperature)\"", read, write_text};
+  return {"a formula", read, write_text};
 }
 
 // color.* and intensity.*. Without a field the others mean nothing and are not written.
@@ -44,9 +44,7 @@ Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Tex
                                 [map](Component& component, const std::string& value) {
                                   (component.*map).field = value;
                                 },
-                                {"A formula of fields instead, such as `log10(density * "
-                                 "temperature)`; see [Formulas](#formulas).",
-                                 "", "none"}),
+                                {"Instead of `field`: see [Formulas](#formulas).", "", "none"}),
                             {path + ".field"})),
       key<Component, Scaling>(
           path + ".scaling",
