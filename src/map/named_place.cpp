@@ -115,8 +115,11 @@ Vec3 find_named_place(const std::string& words, const Scene& scene, const Snapsh
   ComponentFields& fields = open.fields().front();
   fields.select();
   if (fields.count() == 0) {
-    throw UsageError(fmt::format("{}: found \"{}\", of which {} has no particles, expected some",
-                                 what, words, snapshot.info().files.front().string()));
+    throw UsageError(
+        fmt::format("{}: found \"{}\", but select and exclude leave none of {} particles, expected "
+                    "some to find "
+                    "the place by; give it as X,Y,Z",
+                    what, words, fields.count_before_selecting()));
   }
   return decide_geometry(one, read_matter_of_place(fields, one.map.center_at), region).center;
 }

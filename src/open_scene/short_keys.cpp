@@ -73,6 +73,17 @@ bool is_wanted(const ShortKeys& keys, int type) {
   return std::count(keys.types.begin(), keys.types.end(), type) > 0;
 }
 
+std::string names_of_drawn(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Component& component : scene.components) {
+    for (const int type : component.types) {
+      const std::string name = particle_type_name(type);
+      if (std::count(names.begin(), names.end(), name) == 0) names.push_back(name);
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 void check_there_are(const ShortKeys& keys, const Snapshot& snapshot) {
   for (const int type : keys.types) {
     if (snapshot.info().find_type(type) != nullptr) continue;
@@ -234,6 +245,7 @@ ShortKeys take_short_keys(std::vector<std::string>& settings) {
 
 void keep_types(const ShortKeys& keys, Scene& scene) {
   if (keys.types.empty()) return;
+  const std::string drawn = names_of_drawn(scene);
   for (Component& component : scene.components) {
     std::vector<int>& types = component.types;
     types.erase(std::remove_if(types.begin(), types.end(),
@@ -245,9 +257,12 @@ void keep_types(const ShortKeys& keys, Scene& scene) {
                                   [](const Component& c) { return c.types.empty(); }),
                    components.end());
   if (!components.empty()) return;
+  std::vector<std::string> names;
+  for (const int type : keys.types)
+    names.push_back(particle_type_name(type));
   throw UsageError(
-      "types: found types that no component of the scene draws, expected some of its "
-      "component.types");
+      fmt::format("types: found {}, which no component of the scene draws, expected some of {}",
+                  fmt::join(names, ", "), drawn));
 }
 
 void choose_types(const ShortKeys& keys, const Snapshot& snapshot, Look look, Scene& suggested) {

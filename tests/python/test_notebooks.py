@@ -89,26 +89,6 @@ def test_smoothing_lengths_are_searched_anew_for_positions_that_move():
     assert np.allclose(particles["gas"]["smoothing_length"], 2 * before, rtol=1e-4)
 
 
-def test_formulas_are_fields_of_snapshots_and_maps(renderer, universe):
-    gas = Snapshot(universe)["gas"]
-    expected = np.log10(gas["density"].astype(float) * gas["mass"])
-    assert np.allclose(gas["log10(density * mass)"], expected, rtol=1e-6)
-    drawn = splotchcl.column(universe, "2 * mass", types="gas", size=(32, 32))
-    plain = splotchcl.column(universe, "mass", types="gas", size=(32, 32))
-    assert np.allclose(drawn.values, 2 * plain.values, rtol=2e-3, equal_nan=True)
-
-
-def test_a_map_takes_only_what_fulfils_conditions(renderer, universe):
-    gas = Snapshot(universe)["gas"]
-    wanted = (gas["density"] > np.median(gas["density"])) & (gas["id"] < 5000)
-    drawn = splotchcl.column(
-        universe, types="gas", size=(32, 32),
-        where=f"density > {float(np.median(gas['density']))!r} && ParticleIDs < 5000",
-    )
-    mass = gas["mass"][wanted].sum(dtype=float)
-    assert drawn.values.sum(dtype=float) * drawn.pixel**2 == pytest.approx(mass, rel=5e-3)
-
-
 def test_objects_of_pynbody_are_taken_alike_whatever_was_derived_before(real_file):
     pynbody = pytest.importorskip("pynbody")
     path = str(real_file("lcdm/fmt2_snapshot_006"))
