@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/compiler_process.h"
 #include "cli/pages.h"
+#include "cli/scene_options.h"
 #include "cli/version.h"
 #include "common/words.h"
 #include "splotchcl/error.h"
@@ -68,31 +69,11 @@ const CLI::Validator not_negative(
     },
     "");
 
-// What all that read scenes for pictures take alike.
-void add_scene_options(CLI::App& sub, DrawOptions& options) {
-  sub.add_option("--device", options.device,
-                 wrapped("Part of an OpenCL device's name; splotchcl devices lists them. Default: "
-                         "a GPU if there is one"))
-      ->type_name("NAME");
-  sub.add_option("--set", options.settings, wrapped("Set a key of the scene; can be repeated"))
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  sub.add_option("--size", options.size, wrapped("Width and height of the picture, in pixels"))
-      ->type_name("WIDTHxHEIGHT");
+void add_look(CLI::App& sub, DrawOptions& options) {
   sub.add_option("--look", options.look,
                  wrapped("What a snapshot's picture looks like: press, classic or paper. Default: "
                          "press"))
       ->type_name("NAME");
-  sub.add_option("--every", options.every,
-                 wrapped("Draw every N-th particle, brighter by as much as is left out: a quick "
-                         "look at much data"))
-      ->type_name("N");
-  sub.add_option("--max-particles", options.max_particles,
-                 wrapped("Draw at most N particles, chosen at random, brighter likewise"))
-      ->type_name("N");
-  sub.add_flag(
-      "--cache-smoothing-lengths", options.cache_smoothing_lengths,
-      wrapped("Store computed smoothing lengths in a file beside the snapshot, and reuse them"));
 }
 
 // What render and movie take alike.
@@ -102,9 +83,7 @@ void add_draw_options(CLI::App& sub, DrawOptions& options) {
                  wrapped("Largest error of a pixel, in units of the display's white; 0: as exact "
                          "as possible. Default: the scene's, or 0.001"))
       ->type_name("X");
-  sub.add_flag(
-      "--reference", options.reference,
-      wrapped("Draw with the slow reference renderer in double precision instead of a device"));
+  add_look(sub, options);
   sub.add_option(
          "--tree", options.tree,
          wrapped("When to draw from the tree of merged particles that splotchcl tree wrote: "
@@ -183,9 +162,10 @@ void add_publish(CLI::App& app, Run& run, Console& console) {
       ->required()
       ->type_name("FILE");
   add_scene_options(*sub, *options);
+  add_look(*sub, *options);
   sub->add_option("--splats", options->splats,
                   wrapped("How many splats of light stand for the particles at most; a million "
-                          "takes some 13 MB. Default: 400000"))
+                          "takes some 15 MB. Default: 400000"))
       ->check(CLI::Range(1, 4000000))
       ->type_name("N");
   sub->add_option("--title", options->title,

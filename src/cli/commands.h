@@ -16,13 +16,15 @@
 // standard output, everything else through the console. The result is the exit code.
 namespace splotchcl::cli {
 
-// What render and movie have in common.
+// What render, movie and map have in common.
 struct DrawOptions {
   std::filesystem::path scene;  // a scene file or a snapshot
   std::string device;
   std::vector<std::string> settings;  // key=value
   std::optional<std::string> size;    // WIDTHxHEIGHT
   std::optional<std::string> look;
+  std::string types, field, palette, center, width, units;  // empty: not given
+  std::vector<std::string> where;                           // conditions
   std::optional<double> tolerance;
   std::optional<int> every, max_particles;
   bool cache_smoothing_lengths = false;
@@ -33,8 +35,10 @@ struct DrawOptions {
   std::uint64_t memory_bytes = 0;  // 0: as much as the device has room for
   std::optional<std::filesystem::path> stats;
 };
-// All that is set, as key=value.
+// All that is set, as key=value, of pictures.
 std::vector<std::string> settings_of(const DrawOptions& options);
+// What pictures and maps have in common of it.
+std::vector<std::string> common_settings_of(const DrawOptions& options);
 
 struct RenderOptions : DrawOptions {
   std::optional<std::filesystem::path> output;
@@ -64,13 +68,12 @@ int run_view(const ViewOptions& options, Console& console);
 
 struct MapOptions : DrawOptions {
   std::vector<std::filesystem::path> outputs;
-  std::string quantity, statistic, weight, types, view, center, unit, distance, sky, contours,
-      units;  // empty: not given
+  std::string quantity, statistic, weight, view, unit, distance, sky,
+      contours;  // empty: not given
   std::string velocity_range;
   std::optional<int> channels;
   std::optional<double> line_mass;
-  std::string width, depth;  // lengths, which may have a unit
-  std::vector<std::string> select;
+  std::string depth;  // a length, which may have a unit
   bool slice = false, noise = false;
 };
 int run_map(const MapOptions& options, Console& console);

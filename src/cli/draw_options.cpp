@@ -17,9 +17,35 @@
 #include "splotchcl/views.h"
 
 namespace splotchcl::cli {
+namespace {
+
+// Before those that the user gives.
+std::vector<std::string> settings_of_units(const std::string& units) {
+  if (units.empty()) return {};
+  return {"map.length_unit='a kpc/h'", "map.mass_unit='1e10 Msun/h'",
+          "map.velocity_unit='a^0.5 km/s'"};
+}
+
+}  // namespace
 
 std::vector<std::string> settings_of(const DrawOptions& options) {
-  std::vector<std::string> settings = options.settings;
+  std::vector<std::string> settings = common_settings_of(options);
+  const auto add = [&settings](const char* key, const std::string& value) {
+    if (!value.empty()) settings.push_back(fmt::format("{}={}", key, value));
+  };
+  add("types", options.types);
+  for (const std::string& condition : options.where)
+    settings.push_back("where=" + condition);
+  add("field", options.field);
+  add("palette", options.palette);
+  add("center", options.center);
+  add("width", options.width);
+  return settings;
+}
+
+std::vector<std::string> common_settings_of(const DrawOptions& options) {
+  std::vector<std::string> settings = settings_of_units(options.units);
+  settings.insert(settings.end(), options.settings.begin(), options.settings.end());
   if (options.size) settings.push_back("image.size=" + *options.size);
   if (options.look) settings.push_back("look=" + *options.look);
   if (options.tolerance) settings.push_back(fmt::format("tolerance={}", *options.tolerance));

@@ -7,9 +7,12 @@
 
 #include "cli/command_builder.h"
 #include "cli/commands.h"
+#include "cli/scene_options.h"
 #include "common/output_files.h"
 #include "common/quiet_errors.h"
+#include "map/named_place.h"
 #include "open_scene/input_files.h"
+#include "select/selection.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"
 #include "splotchcl/error.h"
@@ -37,13 +40,6 @@ void add_quantity_options(CLI::App& sub, MapOptions& options) {
   sub.add_flag(
       "--slice", options.slice,
       wrapped("Values in the plane through the centre instead of along the line of sight"));
-  sub.add_option("--types", options.types, wrapped("Particle types: gas,stars or 0,4"))
-      ->type_name("LIST");
-  sub.add_option(
-         "--select", options.select,
-         wrapped("Only particles that fulfil this, such as 'temperature > 1e6'; can be repeated"))
-      ->type_name("CONDITION")
-      ->allow_extra_args(false);
   sub.add_option("--unit", options.unit, wrapped("Unit of the map, such as Msun/pc^2, g/cm^2 or K"))
       ->type_name("UNIT");
   sub.add_flag("--noise", options.noise,
@@ -69,14 +65,6 @@ void add_view_options(CLI::App& sub, MapOptions& options) {
          wrapped(
              "xy (the default), xz or yz: the axes to the right and up; camera: the scene's view"))
       ->type_name("NAME");
-  sub.add_option(
-         "--center", options.center,
-         wrapped("Centre of the map: X,Y,Z in the snapshot's lengths, or in a unit that the last "
-                 "has: 25,25,25Mpc; or box, mass or densest"))
-      ->type_name("PLACE");
-  sub.add_option("--width", options.width,
-                 wrapped("Width of the map, in the snapshot's lengths or with a unit: 4Mpc"))
-      ->type_name("LENGTH");
   sub.add_option("--distance", options.distance,
                  wrapped("Distance of the observer, such as '16.5 Mpc', or redshift: adds "
                          "coordinates on the sky"))
@@ -90,33 +78,6 @@ void add_view_options(CLI::App& sub, MapOptions& options) {
   sub.add_option("--depth", options.depth,
                  wrapped("Depth along the line of sight, likewise; particles outside are left out"))
       ->type_name("LENGTH");
-  sub.add_option("--units", options.units,
-                 wrapped("Units of a snapshot that does not say them: gadget stands for a kpc/h, "
-                         "1e10 Msun/h and a^0.5 km/s"))
-      ->type_name("NAME")
-      ->check(CLI::IsMember({"gadget"}));
-  sub.add_option("--size", options.size, wrapped("Size of the map, in pixels"))->type_name("WxH");
-}
-
-void add_drawing_options(CLI::App& sub, MapOptions& options) {
-  sub.add_option("--device", options.device,
-                 wrapped("Part of an OpenCL device's name; splotchcl devices lists them"))
-      ->type_name("NAME");
-  sub.add_option("--set", options.settings, wrapped("Set a key of the scene; can be repeated"))
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  sub.add_option("--tolerance", options.tolerance,
-                 wrapped("Largest error of each sum, relative to it, or to map.floor if it is "
-                         "below that; 0: 1e-6. Default: the scene's, or 0.001"))
-      ->type_name("X");
-  sub.add_option("--every", options.every, wrapped("Read every N-th particle"))->type_name("N");
-  sub.add_option("--max-particles", options.max_particles, wrapped("Read at most N, at random"))
-      ->type_name("N");
-  sub.add_flag(
-      "--cache-smoothing-lengths", options.cache_smoothing_lengths,
-      wrapped("Store computed smoothing lengths in a file beside the snapshot, and reuse them"));
-  sub.add_flag("--reference", options.reference,
-               wrapped("Draw with the slow reference renderer in double precision"));
 }
 
 }  // namespace
@@ -137,7 +98,11 @@ void add_map(CLI::App& app, Run& run, Console& console) {
   add_quantity_options(*sub, *options);
   add_velocity_options(*sub, *options);
   add_view_options(*sub, *options);
-  add_drawing_options(*sub, *options);
+  sub->add_option("--tolerance", options->tolerance,
+                  wrapped("Largest error of each sum, relative to it, or to map.floor if it is "
+                          "below that; 0: 1e-6. Default: the scene's, or 0.001"))
+      ->type_name("X");
+  add_scene_options(*sub, *options);
   sub->footer(
       "Examples:\n"
       "  splotchcl map snapshot_006 -o density.png\n"
@@ -153,15 +118,6 @@ std::string map_component(const MapOptions& options) {
     if (setting.rfind(key, 0) == 0) return setting.substr(key.size());
   }
   return "0";
-}
-
-// "Mpc" of "25,25,25 Mpc" or of "4Mpc"; nothing of numbers alone.
-std::string unit_at_end(const std::string& lengths) {
-  const std::size_t comma = lengths.rfind(','), first = comma == std::string::npos ? 0 : comma + 1;
-  const std::size_t last = lengths.find_first_not_of(' ', first);
-  if (last == std::string::npos) return {};
-  const std::size_t unit = lengths.find_first_not_of(' ', end_of_number(lengths, last));
-  return unit == std::string::npos ? "" : lengths.substr(unit);
 }
 
 // "gas,4" as TOML: ["gas", 4]
@@ -182,34 +138,31 @@ std::string contour_setting(const std::string& text) {
   return is_count ? "map.contour_count=" + text : "map.contours=[" + text + "]";
 }
 
-// A length or a place with a unit, which the snapshot has to be known for.
-bool has_unit(const std::string& lengths) {
-  return !unit_at_end(lengths).empty();
+// halo=5, which stands for a place as words do.
+bool is_named(const std::string& center) {
+  return center.find(',') == std::string::npos;
 }
 
-// Before those that the user gives.
-std::vector<std::string> settings_of_units(const std::string& units) {
-  if (units.empty()) return {};
-  return {"map.length_unit='a kpc/h'", "map.mass_unit='1e10 Msun/h'",
-          "map.velocity_unit='a^0.5 km/s'"};
+// A length or a place with a unit, which the snapshot has to be known for.
+bool has_unit(const std::string& lengths) {
+  return !unit_of_lengths(lengths).empty();
 }
 
 // The options as settings of the scene, after those that the user gives.
 std::vector<std::string> settings_of_map(const MapOptions& options) {
-  std::vector<std::string> settings = settings_of_units(options.units);
-  const std::vector<std::string> given = settings_of(options);
-  settings.insert(settings.end(), given.begin(), given.end());
+  std::vector<std::string> settings = common_settings_of(options);
   const auto add = [&settings](const char* key, const std::string& value) {
     if (!value.empty()) settings.push_back(fmt::format("map.{}='{}'", key, value));
   };
-  add("quantity", options.quantity);
+  add("quantity", options.quantity.empty() ? options.field : options.quantity);
+  add("palette", options.palette);
   add("statistic", options.statistic);
   add("weight", options.weight);
   add("view", options.view);
   add("unit", options.unit);
-  if (options.center.find(',') == std::string::npos) {
+  if (options.center.find_first_of(",=") == std::string::npos) {
     add("center_at", options.center);
-  } else if (!has_unit(options.center)) {
+  } else if (!is_named(options.center) && !has_unit(options.center)) {
     settings.push_back("map.center=[" + options.center + "]");
   }
   add("distance", options.distance);
@@ -245,6 +198,8 @@ Component* find_component(Scene& scene) {
 void add_selection(const std::vector<std::string>& conditions, Scene& scene) {
   Component* const component = find_component(scene);
   if (component == nullptr) return;
+  for (const std::string& condition : conditions)
+    parse_condition(condition, "option --where");
   component->select.where.insert(component->select.where.end(), conditions.begin(),
                                  conditions.end());
 }
@@ -256,30 +211,26 @@ double length_of(const std::string& text, const char* option, const SceneWithSna
   throw UsageError(fmt::format("{}: found \"{}\", expected a length above 0", what, text));
 }
 
-Vec3 place_of(const std::string& text, const SceneWithSnapshot& source) {
-  const std::string unit = unit_at_end(text);
-  std::istringstream words(text);
-  std::vector<double> place;
-  for (std::string word; std::getline(words, word, ',');) {
-    if (!has_unit(word)) word += " " + unit;
-    place.push_back(read_map_length(word, source.scene, *source.snapshot, "option --center"));
-  }
-  if (place.size() == 3) return {{place[0], place[1], place[2]}};
-  throw UsageError(fmt::format(
-      "option --center: found \"{}\", expected three lengths, such as 25,25,25Mpc", text));
-}
-
 // What has a unit, in the snapshot's lengths; coordinates are told in the unit that was used.
 void use_lengths(const MapOptions& options, SceneWithSnapshot& source) {
   MapSettings& map = source.scene.map;
-  const bool has_place = options.center.find(',') != std::string::npos && has_unit(options.center);
+  const bool has_place = !is_named(options.center) && has_unit(options.center);
   if (has_unit(options.width)) map.width = length_of(options.width, "--width", source);
   if (has_unit(options.depth)) map.depth = length_of(options.depth, "--depth", source);
-  if (has_place) map.center = place_of(options.center, source);
+  if (has_place)
+    map.center = read_place(options.center, source.scene, *source.snapshot, "option --center");
   const std::string& used = has_unit(options.width) ? options.width
                             : has_place             ? options.center
                                                     : options.depth;
-  if (map.axis_unit.empty()) map.axis_unit = unit_at_end(used);
+  if (map.axis_unit.empty()) map.axis_unit = unit_of_lengths(used);
+}
+
+// The map's own words are its settings.
+void find_halo(const MapOptions& options, SceneWithSnapshot& source) {
+  const bool is_halo = is_named(options.center) && options.center.find('=') != std::string::npos;
+  if (!is_halo) return;
+  source.scene.map.center = find_named_place(options.center, source.scene, *source.snapshot,
+                                             "option --center", source.notes);
 }
 
 // The component that was suggested for other types has their name, and another one perhaps the name
@@ -328,9 +279,10 @@ int run_map(const MapOptions& options, Console& console) {
       open_scene(options.scene, settings_of_map(options), nullptr, Look::classic);
   // A map is of one component, whatever else there is.
   const std::string not_drawn = tell_not_drawn(source.scene, *source.snapshot);
-  add_selection(options.select, source.scene);
+  add_selection(options.where, source.scene);
   name_by_types(options, source);
   use_lengths(options, source);
+  find_halo(options, source);
   std::vector<OutputFile> outputs;
   for (const std::filesystem::path& output : options.outputs) {
     check_map_output(output, source.scene, source.snapshot->info());

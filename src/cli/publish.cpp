@@ -105,6 +105,7 @@ int run_publish(const PublishOptions& options, Console& console) {
   page.particles = particles.size();
   FrameDrawerOptions of_drawer;
   of_drawer.device = options.device;
+  of_drawer.by_reference = options.reference;
   of_drawer.tree = TreeUse::never;
   of_drawer.light = PictureLight::drawn;
   of_drawer.start_compiler = compiler_processes(nullptr);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "formula/formula.h"
+#include "formula/formula_units.h"
 #include "scene/scalar_map.h"
 #include "snapshot/field_names.h"
 
@@ -201,14 +203,33 @@ std::string readable_unit(const std::string& unit, bool superscripts) {
   return replaced(text, "_sun", "⊙");
 }
 
+namespace {
+
+// As far as it follows from what the file says; else empty.
+std::string unit_of_formula_in(const ParticleTypeInfo& type, const std::string& text,
+                               const SnapshotInfo& snapshot) {
+  if (!Formula::may_be(text)) return {};
+  const auto unit_of_field = [&](const std::string& name) -> std::optional<WrittenUnit> {
+    const FieldInfo* const field = find_field(type, name);
+    if (field == nullptr) return std::nullopt;
+    return written_unit(field->unit, unit_factors(snapshot));
+  };
+  const auto unit = unit_of_formula(Formula::parse(text, "formula"), unit_of_field, "formula");
+  return unit ? unit->text() : std::string();
+}
+
+}  // namespace
+
 std::string field_label(const std::string& field, int type, const SnapshotInfo& snapshot,
                         bool superscripts) {
   const ParticleTypeInfo* const info = snapshot.find_type(type);
   const FieldInfo* const found = info == nullptr ? nullptr : find_field(*info, field);
   std::string name = found == nullptr ? field : found->name;
   std::replace(name.begin(), name.end(), '_', ' ');
-  if (found == nullptr || found->unit.empty()) return name;
-  return name + " [" + readable_unit(found->unit, superscripts) + "]";
+  const std::string unit = found != nullptr  ? found->unit
+                           : info != nullptr ? unit_of_formula_in(*info, field, snapshot)
+                                             : std::string();
+  return unit.empty() ? name : name + " [" + readable_unit(unit, superscripts) + "]";
 }
 
 std::string length_unit(const SnapshotInfo& snapshot) {

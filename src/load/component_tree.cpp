@@ -25,9 +25,10 @@ const std::optional<Trees>& known_trees(const Snapshot& snapshot) {
 std::optional<int> field_of(const TreeOfType& tree, const std::string& name) {
   if (name.empty()) return -1;
   const std::string canonical = canonical_field_name(name);
-  const auto found = std::find_if(
-      tree.fields.begin(), tree.fields.end(),
-      [&](const std::string& field) { return canonical_field_name(field) == canonical; });
+  const auto found =
+      std::find_if(tree.fields.begin(), tree.fields.end(), [&](const std::string& field) {
+        return canonical.empty() ? field == name : canonical_field_name(field) == canonical;
+      });
   if (found == tree.fields.end()) return std::nullopt;
   return static_cast<int>(found - tree.fields.begin());
 }

@@ -104,6 +104,11 @@ Column distances(const Column& position, const Vec3& origin, const Vec3& center,
 
 std::pair<const FieldInfo*, std::size_t> find_axis(const ParticleTypeInfo& type,
                                                    const std::string& name) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string letter(1, "xyz"[axis]);
+    if (equal_ignoring_case(name, letter)) return find_axis(type, "position_" + letter);
+    if (equal_ignoring_case(name, "v" + letter)) return find_axis(type, "velocity_" + letter);
+  }
   const std::size_t length = name.size();
   if (length < 3 || name[length - 2] != '_') return {nullptr, 0};
   const std::size_t axis = std::string("xyz").find(name[length - 1]);
@@ -111,6 +116,23 @@ std::pair<const FieldInfo*, std::size_t> find_axis(const ParticleTypeInfo& type,
   const FieldInfo* const field = find_field(type, name.substr(0, length - 2));
   if (field == nullptr || field->values_per_particle != 3) return {nullptr, 0};
   return {field, axis};
+}
+
+std::string unit_of(const ParticleTypeInfo& type, const std::string& name) {
+  const auto unit_of_stored = [&type](const std::string& field) {
+    const FieldInfo* const found = find_field(type, field);
+    return found == nullptr ? std::string() : found->unit;
+  };
+  const FieldInfo* const stored = find_field(type, name);
+  const std::string canonical = canonical_field_name(name);
+  if (stored != nullptr && (!stored->unit.empty() || canonical != "density")) return stored->unit;
+  if (canonical == "temperature") return "K";
+  if (canonical == "density") return unit_of_matching_density(type);
+  if (canonical == "smoothing_length" || equal_ignoring_case(name, "radius"))
+    return unit_of_stored("position");
+  if (equal_ignoring_case(name, "speed")) return unit_of_stored("velocity");
+  const FieldInfo* const vectors = find_axis(type, name).first;
+  return vectors == nullptr ? std::string() : vectors->unit;
 }
 
 std::vector<std::string> derivable_fields(const ParticleTypeInfo& type) {

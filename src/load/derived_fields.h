@@ -40,9 +40,13 @@ Column axis_of_vectors(const Column& vectors, std::size_t axis, double added, bo
 // |x - center| with x = origin + position, in double precision.
 Column distances(const Column& position, const Vec3& origin, const Vec3& center, bool streams);
 
-// {velocity, 2} of "velocity_z" where the type has such a vector field; no field otherwise.
+// {velocity, 2} of "velocity_z" or "vz", as of "z" {position, 2}, where the type has such a vector
+// field; no field otherwise.
 std::pair<const FieldInfo*, std::size_t> find_axis(const ParticleTypeInfo& type,
                                                    const std::string& name);
+
+// Of the values of a field that the type has or that can be derived; empty where it is not known.
+std::string unit_of(const ParticleTypeInfo& type, const std::string& name);
 
 // The names of what can be derived for this type and is not a field of its own.
 std::vector<std::string> derivable_fields(const ParticleTypeInfo& type);

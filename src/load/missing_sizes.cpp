@@ -180,12 +180,39 @@ SearchShare search_share(Communicator* ranks) {
           }};
 }
 
+namespace {
+
+struct FoundSizes {
+  std::uint64_t key = 0;  // stands for the positions
+  Column lengths;
+};
+
+// Arrays may hold other values for every picture, but mostly have the same: the last search is kept
+// with what it was made of.
+Column find_sizes_once(const Snapshot& snapshot, int type, const Column& position,
+                       const std::optional<BoxSides>& periodic_box, const MissingSizes& how) {
+  using Kept = std::shared_ptr<FoundSizes>;
+  const Kept& kept = snapshot.memory().get_for_all_times<Kept>(
+      fmt::format("sizes of type {}", type), [] { return std::make_shared<FoundSizes>(); });
+  const std::uint64_t key = SmoothingLengthCache::key_of(position, periodic_box, how.neighbors);
+  if (kept->lengths.is_absent() || kept->key != key)
+    *kept = {key, search(type, position, periodic_box, how, nullptr)};
+  return kept->lengths;
+}
+
+}  // namespace
+
 Column find_sizes_by_neighbors(const Snapshot& snapshot, int type, const Column& position,
                                const std::optional<BoxSides>& periodic_box, const MissingSizes& how,
                                const std::function<void(const std::string&)>& say) {
   const SnapshotInfo& info = snapshot.info();
   Communicator* const ranks = snapshot.memory().ranks().get();
-  const auto find = [&] { return search(type, position, periodic_box, how, ranks); };
+  const bool is_of_arrays = info.files_mark == 0;
+  const auto find = [&] {
+    return is_of_arrays && ranks == nullptr
+               ? find_sizes_once(snapshot, type, position, periodic_box, how)
+               : search(type, position, periodic_box, how, ranks);
+  };
   if (!how.is_cached) return find();
   if (!info.is_whole()) {
     say(

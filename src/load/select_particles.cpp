@@ -10,7 +10,9 @@
 
 #include "formats/halo_catalog.h"
 #include "formats/numpy/numpy_array.h"
+#include "load/field_formulas.h"
 #include "load/passes.h"
+#include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/particle_columns.h"
 #include "select/selection.h"
@@ -38,10 +40,6 @@ Ids read_wanted_ids(const std::string& file) {
 const Ids& wanted_ids(const Snapshot& snapshot, const std::string& file) {
   return snapshot.memory().get_for_all_times<Ids>("ids " + file,
                                                   [&file] { return read_wanted_ids(file); });
-}
-
-bool is_of_ids(const Comparison& comparison) {
-  return canonical_field_name(comparison.field) == "id";
 }
 
 // Where a halo's particles are looked up: in a catalog, or in the field that has the number of
@@ -93,36 +91,14 @@ class Membership {
   }
 
   void keep_where(const std::string& text, const std::string& key) {
-    const std::optional<Condition> condition = parse_condition(text);
-    if (!condition) {
-      throw UsageError(fmt::format("{}: found \"{}\", expected {}", key, text, condition_form));
-    }
-    std::vector<bool> any(is_member_.size(), false);
-    for (const Conjunction& conjunction : *condition) {
-      std::vector<bool> all(is_member_.size(), true);
-      for (const Comparison& comparison : conjunction) {
-        keep_compared(comparison, key, all);
-      }
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        if (all[i]) any[i] = true;
-      }
-    }
-    keep_if([&](std::size_t i) { return any[i - run_.begin]; });
-  }
-
-  // Those of a run for which a comparison holds. Single precision does not tell ids apart.
-  void keep_compared(const Comparison& comparison, const std::string& key,
-                     std::vector<bool>& all) const {
-    if (is_of_ids(comparison)) {
-      const Ids own = fields_.ids();
-      for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = all[i] && comparison.holds_for_id(own[run_.begin + i]);
-      return;
-    }
-    const Column values = fields_.scalars(comparison.field, key);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (all[i]) all[i] = comparison.holds(static_cast<double>(values[run_.begin + i]));
-    }
+    constexpr std::size_t block = std::size_t{1} << 16;
+    const Formula condition = condition_on(fields_, text, key);
+    const auto values = formula_values(fields_, condition, key);
+    std::vector<double> holds(is_member_.size());
+    for_blocks(holds.size(), block, [&](std::size_t first, std::size_t last) {
+      values->evaluate(run_.begin + first, run_.begin + last, holds.data() + first);
+    });
+    keep_if([&](std::size_t i) { return holds[i - run_.begin] != 0; });
   }
 
   void keep_box(const Vec3& minimum, const Vec3& maximum) {
@@ -216,10 +192,9 @@ ParticleSet stars_by(const FieldInfo& time_of_formation) {
 bool has_condition_on(const ParticleSet& set, const FieldInfo& field,
                       const ParticleTypeInfo& type) {
   for (const std::string& text : set.where) {
-    for (const Conjunction& conjunction : parse_condition(text).value_or(Condition())) {
-      for (const Comparison& comparison : conjunction) {
-        if (find_field(type, comparison.field) == &field) return true;
-      }
+    const Formula condition = parse_condition(text, "where");
+    for (const std::string& name : condition.fields()) {
+      if (find_field(type, name) == &field) return true;
     }
   }
   return false;
@@ -261,27 +236,13 @@ void check_ids(const TypeFields& fields, const Snapshot& snapshot) {
   if (find_field(fields.info(), "id") == nullptr) snapshot.read_ids(fields.info().type);
 }
 
-void check_comparison(const Comparison& comparison, const std::string& text, const std::string& key,
-                      const TypeFields& fields, const Snapshot& snapshot) {
-  if (!is_of_ids(comparison)) {
-    fields.check_scalars(comparison.field, key + ".where");
-  } else if (comparison.whole) {
-    check_ids(fields, snapshot);
-  } else {
-    throw UsageError(
-        fmt::format("component with {}.where \"{}\": found ids compared with {}, expected a whole "
-                    "number from 0 "
-                    "to 2^64 - 1",
-                    key, text, comparison.number));
-  }
-}
-
 void check_set(const ParticleSet& set, const std::string& key, const TypeFields& fields,
                const Snapshot& snapshot) {
   for (const std::string& text : set.where) {
-    for (const Conjunction& conjunction : parse_condition(text).value_or(Condition())) {
-      for (const Comparison& comparison : conjunction)
-        check_comparison(comparison, text, key, fields, snapshot);
+    const Formula condition = condition_on(fields, text, key + ".where");
+    check_formula(fields, condition, key + ".where");
+    for (const std::string& name : condition.fields()) {
+      if (canonical_field_name(name) == "id") check_ids(fields, snapshot);
     }
   }
   if (set.halo) catalog_of(set, key, fields, snapshot);

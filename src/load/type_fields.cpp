@@ -10,9 +10,11 @@
 #include "between/interpolation.h"
 #include "common/words.h"
 #include "load/derived_fields.h"
+#include "load/field_formulas.h"
 #include "load/missing_sizes.h"
 #include "load/passes.h"
 #include "load/periodic.h"
+#include "parallel/for_blocks.h"
 #include "ranks/spread_particles.h"
 #include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
@@ -73,6 +75,19 @@ std::vector<std::uint64_t> TypeFields::ids() const {
 }
 
 Column TypeFields::scalars(const std::string& field, const std::string& key) const {
+  if (has_plain(field) || !Formula::may_be(field)) return plain_scalars(field, key);
+  const Formula formula = Formula::parse(field, what(key));
+  check_formula(*this, formula, key);
+  const auto& c = center_.a;
+  return remembered(fmt::format("formula {} from {} {} {}", field, c[0], c[1], c[2]),
+                    [&] { return formula_column(formula, key); });
+}
+
+bool TypeFields::has_plain(const std::string& field) const {
+  return find_field(*type_, field) != nullptr || find_derived(field, "").has_value();
+}
+
+Column TypeFields::plain_scalars(const std::string& field, const std::string& key) const {
   if (const FieldInfo* const info = find_field(*type_, field)) {
     if (info->values_per_particle == 1) return snapshot_->read(type_->type, field);
     if (info->values_per_particle != 3) refuse_width(*info, field, key, "1 or 3");
@@ -83,9 +98,76 @@ Column TypeFields::scalars(const std::string& field, const std::string& key) con
   refuse_field(field, key);
 }
 
-void TypeFields::check_scalars(const std::string& field, const std::string& key) const {
+Column TypeFields::formula_column(const Formula& formula, const std::string& key) const {
+  constexpr std::size_t block = std::size_t{1} << 16;
+  const std::shared_ptr<const FormulaValues> values = formula_values(*this, formula, key);
+  const auto make = [values](std::size_t begin, std::size_t end, float* out) {
+    std::vector<double> exact(end - begin);
+    values->evaluate(begin, end, exact.data());
+    std::transform(exact.begin(), exact.end(), out,
+                   [](double value) { return static_cast<float>(value); });
+  };
+  if (streams()) return make_column(count(), true, make);
+  std::vector<float> all(count());
+  for_blocks(all.size(), block,
+             [&](std::size_t begin, std::size_t end) { make(begin, end, all.data() + begin); });
+  return Column::owning(std::move(all));
+}
+
+// Coordinates in double precision, as they are stored.
+FieldValues TypeFields::plain_values(const std::string& field, const std::string& key) const {
+  const auto [vectors, axis] = find_axis(*type_, field);
+  const bool is_coordinate =
+      find_field(*type_, field) == nullptr && vectors != nullptr && vectors->name == "position";
+  if (is_coordinate) {
+    return [position = positions(), origin = snapshot_->position_origin().a[axis], a = axis](
+               std::size_t begin, std::size_t end, double* out) {
+      const ColumnStretch stretch(position, 3 * begin, 3 * end);
+      for (std::size_t i = begin; i < end; ++i)
+        *out++ = origin + static_cast<double>(stretch[3 * i + a]);
+    };
+  }
+  return [column = plain_scalars(field, key)](std::size_t begin, std::size_t end, double* out) {
+    const ColumnStretch stretch(column, begin, end);
+    for (std::size_t i = begin; i < end; ++i)
+      *out++ = static_cast<double>(stretch[i]);
+  };
+}
+
+namespace {
+
+// "ParticleIDs", "halo_id", "ParentID".
+bool is_called_id(const std::string& name) {
+  const std::string lower = lower_case(name);
+  const auto ends_with = [&lower](const std::string& end) {
+    return lower.size() >= end.size() &&
+           lower.compare(lower.size() - end.size(), end.size(), end) == 0;
+  };
+  return ends_with("id") || ends_with("ids");
+}
+
+}  // namespace
+
+std::optional<WholeNumbers> TypeFields::whole_numbers(const std::string& field) const {
+  using Numbers = std::vector<std::uint64_t>;
+  if (canonical_field_name(field) == "id")
+    return WholeNumbers{std::make_shared<const Numbers>(ids()), false};
   const FieldInfo* const info = find_field(*type_, field);
-  if (info == nullptr && !find_derived(field, key)) refuse_field(field, key);
+  const bool may_be_ids = info != nullptr && info->values_per_particle == 1 &&
+                          (info->name == "halo_id" || is_called_id(info->name));
+  if (!may_be_ids) return std::nullopt;
+  try {
+    return WholeNumbers{
+        std::make_shared<const Numbers>(snapshot_->read_integers(type_->type, info->name)), true};
+  } catch (const DataError&) {  // numbers with a point, or none between two snapshots
+    return std::nullopt;
+  }
+}
+
+void TypeFields::check_scalars(const std::string& field, const std::string& key) const {
+  if (has_plain(field)) return;
+  if (!Formula::may_be(field)) refuse_field(field, key);
+  check_formula(*this, Formula::parse(field, what(key)), key);
 }
 
 Column TypeFields::vectors(const std::string& field, const std::string& key) const {

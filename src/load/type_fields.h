@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formula/formula_values.h"
 #include "load/missing_sizes.h"
 #include "splotchcl/snapshot.h"
 
@@ -23,8 +24,9 @@ class TypeFields {
   const ParticleTypeInfo& info() const { return *type_; }
   std::size_t count() const { return static_cast<std::size_t>(type_->count); }
 
-  // One value per particle; of a vector field its length. Throws UsageError when the type
-  // has no such field: `key` is the scene's that asked for it.
+  // One value per particle; of a vector field its length; of what is no field's name the values of
+  // the formula that it is. Throws UsageError when the type has no such field: `key` is the scene's
+  // that asked for it.
   Column scalars(const std::string& field, const std::string& key) const;
   // Three values per particle.
   Column vectors(const std::string& field, const std::string& key) const;
@@ -35,6 +37,17 @@ class TypeFields {
   // The file's; else from densities or neighbours.
   Column smoothing_lengths() const;
   std::vector<std::uint64_t> ids() const;
+
+  // What formulas are made of (field_formulas.h): fields alone.
+  bool has_plain(const std::string& field) const;
+  Column plain_scalars(const std::string& field, const std::string& key) const;
+  FieldValues plain_values(const std::string& field, const std::string& key) const;
+  // Of identifiers, the type's own or those of haloes and others; nothing for other fields.
+  std::optional<WholeNumbers> whole_numbers(const std::string& field) const;
+  const SnapshotInfo& snapshot_info() const { return snapshot_->info(); }
+  // "component gas: color.field", which begins messages.
+  std::string what(const std::string& key) const { return label_ + ": " + key; }
+  [[noreturn]] void refuse_field(const std::string& field, const std::string& key) const;
 
   // Refuse what scalars() and vectors() would, and read nothing.
   void check_scalars(const std::string& field, const std::string& key) const;
@@ -58,8 +71,8 @@ class TypeFields {
   std::optional<double> unit_of_volumes() const;
   std::optional<BoxSides> periodic_box() const;
   bool streams() const;
+  Column formula_column(const Formula& formula, const std::string& key) const;
   void say(const std::string& text) const;
-  [[noreturn]] void refuse_field(const std::string& field, const std::string& key) const;
   [[noreturn]] void refuse_width(const FieldInfo& info, const std::string& field,
                                  const std::string& key, const char* expected) const;
   std::string file() const;

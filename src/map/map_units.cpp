@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "common/words.h"
+#include "formula/formula.h"
+#include "formula/formula_units.h"
 #include "load/derived_fields.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"
@@ -92,7 +94,21 @@ class DataUnits {
     if (canonical == "smoothing_length" || name == "radius") return length();
     if (canonical == "density") return product(mass(), length(), -3);
     if (const FieldInfo* const vectors = find_axis(type_, name).first) return of_field(*vectors);
+    if (Formula::may_be(name)) return of_formula(name);
     return {"code_" + name, false, {}};
+  }
+
+  // Of what is no product of known units nothing tells what its values are in.
+  NamedUnits of_formula(const std::string& text) const {
+    const std::string what = "formula";
+    const auto unit_of_field = [this](const std::string& name) -> std::optional<WrittenUnit> {
+      const NamedUnits units = field(name);
+      if (!units.is_known) return std::nullopt;
+      return WrittenUnit{units.unit, {{units.name, 1}}};
+    };
+    const auto found = unit_of_formula(Formula::parse(text, what), unit_of_field, what);
+    if (!found) return {"no_unit", false, {}};
+    return {found->text(), true, found->unit};
   }
 
   // a * b^exponent
@@ -193,14 +209,29 @@ const FieldInfo* source_of(const ParticleTypeInfo& type, const std::string& name
   return find_axis(type, name).first;
 }
 
+void add_names(const std::string& quantity, const ParticleTypeInfo& type,
+               std::vector<std::string>& names) {
+  names.push_back(quantity);
+  if (source_of(type, quantity) != nullptr || !Formula::may_be(quantity)) return;
+  const Formula formula = Formula::parse(quantity, "formula");
+  names.insert(names.end(), formula.fields().begin(), formula.fields().end());
+}
+
+std::vector<std::string> names_with_units(const MapSettings& settings,
+                                          const ParticleTypeInfo& type) {
+  std::vector<std::string> names = {"position", "smoothing_length", "mass"};
+  add_names(settings.quantity, type, names);
+  add_names(settings.weight, type, names);
+  return names;
+}
+
 // Values of several types are added: they need one unit.
 void check_types_agree(const MapSettings& settings, const SnapshotInfo& snapshot,
                        const std::vector<int>& types) {
   const ParticleTypeInfo& first = *snapshot.find_type(types.front());
   for (const int number : types) {
     const ParticleTypeInfo& type = *snapshot.find_type(number);
-    for (const std::string& name : {std::string("position"), std::string("smoothing_length"),
-                                    std::string("mass"), settings.quantity, settings.weight}) {
+    for (const std::string& name : names_with_units(settings, first)) {
       const FieldInfo *const one = source_of(first, name), *const other = source_of(type, name);
       if (one == nullptr || other == nullptr) continue;
       const auto ratio = unit_ratio(other->unit, one->unit, unit_factors(snapshot));

@@ -8,6 +8,7 @@
 #include "common/words.h"
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
+#include "open_scene/short_keys.h"
 #include "ranks/exchange.h"
 #include "scene_file/suggested.h"
 #include "snapshot/field_names.h"
@@ -49,10 +50,10 @@ bool sets_types(const std::string& setting) {
          key.compare(key.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-std::string names_of(const std::vector<int>& types) {
+std::string names_of(const std::vector<int>& types, const std::string& between = ", ") {
   std::string names;
   for (const int type : types)
-    names += (names.empty() ? "" : ", ") + particle_type_name(type);
+    names += (names.empty() ? "" : between) + particle_type_name(type);
   return names;
 }
 
@@ -95,6 +96,25 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
   suggested.camera.reset();
   suggested.camera = decide_camera(suggested, snapshot);
   return suggested;
+}
+
+// A component that was called by the types that it was suggested for is called by those that it has
+// now, but where another one has that name.
+void name_by_types(const Scene& suggested, Scene& scene) {
+  const std::size_t count = std::min(scene.components.size(), suggested.components.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    Component& component = scene.components[i];
+    const bool is_called_so = component.name == suggested.components[i].name;
+    if (!is_called_so || !find_particle_type(component.name)) continue;
+    const bool is_right =
+        std::any_of(component.types.begin(), component.types.end(),
+                    [&component](int type) { return particle_type_name(type) == component.name; });
+    const std::string name = names_of(component.types, " and ");
+    const bool is_taken =
+        std::any_of(scene.components.begin(), scene.components.end(),
+                    [&name](const Component& other) { return other.name == name; });
+    if (!is_right && !is_taken) component.name = name;
+  }
 }
 
 // Most snapshots are binary: their first bytes hold some that no text does.
@@ -158,7 +178,7 @@ void refuse_look(const Scene& scene, const std::filesystem::path& path) {
 
 // A scene file without components leaves them to its look.
 SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
-                                  const std::vector<std::string>& settings,
+                                  const std::vector<std::string>& settings, const ShortKeys& keys,
                                   const std::shared_ptr<Communicator>& ranks) {
   std::vector<std::string> early;  // what does not presuppose components
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(early),
@@ -169,42 +189,48 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
     result.scene = read_scene_file(path, settings);
     check_components(result.scene, path);
     refuse_look(result.scene, path);
+    keep_types(keys, result.scene);
     result.snapshot = SnapshotSource().at(result.scene);
     return result;
   }
   const Scene begun = read_scene_file(path, early);
   result.snapshot = SnapshotSource().at(begun);
   share_passes(*result.snapshot, ranks);
-  const Scene suggested = with_wanted_types(suggest_scene(*result.snapshot, *begun.look), settings,
-                                            *result.snapshot, *begun.look);
+  Scene suggested = suggest_scene(*result.snapshot, *begun.look);
+  choose_types(keys, *result.snapshot, *begun.look, suggested);
+  suggested = with_wanted_types(suggested, settings, *result.snapshot, *begun.look);
   result.scene = scene_file::read_scene_file_on(suggested, path, settings);
   result.scene.look.reset();
   return result;
 }
 
 SceneWithSnapshot open_together(const std::filesystem::path& path,
-                                const std::vector<std::string>& settings,
+                                const std::vector<std::string>& settings, const ShortKeys& keys,
                                 const std::shared_ptr<Communicator>& ranks, Look otherwise) {
   SceneWithSnapshot result;
   if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
     refuse_look(result.scene, path);
+    keep_types(keys, result.scene);
     result.snapshot = SnapshotSource().at(result.scene);
   } else if (lower_ending(path) == ".toml" || (is_text_without_format(path) && has_keys(path))) {
-    result = open_scene_file(path, settings, ranks);
+    result = open_scene_file(path, settings, keys, ranks);
   } else {
     result.snapshot = open_given_snapshot(path, read_settings_in(settings));
     share_passes(*result.snapshot, ranks);
     const Look look = look_in(settings, otherwise);
-    result.suggested =
-        with_wanted_types(suggest_scene(*result.snapshot, look), settings, *result.snapshot, look);
+    Scene suggested = suggest_scene(*result.snapshot, look);
+    choose_types(keys, *result.snapshot, look, suggested);
+    result.suggested = with_wanted_types(suggested, settings, *result.snapshot, look);
     result.scene =
         scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
     result.scene.look.reset();
+    name_by_types(*result.suggested, result.scene);
     const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
-    if (!not_drawn.empty()) result.notes.push_back(not_drawn);
+    if (!not_drawn.empty() && keys.types.empty()) result.notes.push_back(not_drawn);
   }
   share_passes(*result.snapshot, ranks);
+  apply(keys, result);
   return result;
 }
 
@@ -218,7 +244,11 @@ SceneWithSnapshot open_scene(const std::filesystem::path& path,
                              const std::vector<std::string>& settings,
                              const std::shared_ptr<Communicator>& ranks, Look look) {
   SceneWithSnapshot result;
-  agree(ranks.get(), [&] { result = open_together(path, settings, ranks, look); });
+  agree(ranks.get(), [&] {
+    std::vector<std::string> of_keys = settings;
+    const ShortKeys short_keys = take_short_keys(of_keys);
+    result = open_together(path, of_keys, short_keys, ranks, look);
+  });
   return result;
 }
 

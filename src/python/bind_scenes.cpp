@@ -8,6 +8,7 @@
 #include "python/progress.h"
 #include "python/source.h"
 #include "scene_file/file_names.h"
+#include "scene_file/key_names.h"
 #include "scene_file/suggested.h"
 #include "splotchcl/load.h"
 #include "splotchcl/open_scene.h"
@@ -93,6 +94,7 @@ void bind_scene(py::module_& module) {
 void bind_scenes(py::module_& module) {
   bind_scene(module);
   module.def("open_scene", &open);
+  module.def("scene_keys", &scene_file::key_names);
   module.def("read_scene", [](const std::filesystem::path& path, const Settings& settings) {
     return read_scene_file(path, settings);
   });

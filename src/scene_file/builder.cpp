@@ -145,9 +145,14 @@ void SceneBuilder::assign_key(const Key& key, const KeyAddress& address, const V
   }
   need_camera(address, value.where);
   need_stereo(address);
-  bool is_set = key.set(scene_, address.component, value.node);
-  if (!is_set && value.bare_text != nullptr) {
-    is_set = key.set(scene_, address.component, toml::value<std::string>(*value.bare_text));
+  bool is_set = false;
+  try {
+    is_set = key.set(scene_, address.component, value.node);
+    if (!is_set && value.bare_text != nullptr) {
+      is_set = key.set(scene_, address.component, toml::value<std::string>(*value.bare_text));
+    }
+  } catch (const UsageError& error) {  // a formula that is none
+    throw UsageError(fmt::format("{}: key {}: {}", value.where, address.label, error.what()));
   }
   if (!is_set) refuse(value.where, address.label, describe(value.node), key.expected);
   origins_.where[address.label] = value.where;

@@ -1,9 +1,19 @@
+#include "formula/formula.h"
 #include "scene_file/key_builder.h"
 
 namespace splotchcl::scene_file {
 namespace {
 
 using Percentiles = std::array<double, 2>;
+
+ValueType<std::string> formula_text() {
+  const auto read = [](const toml::node& node) {
+    const auto found = node.value_exact<std::string>();
+    if (found) Formula::parse(*found, "formula");
+    return found;
+  };
+  return {"a formula", read, write_text};
+}
 
 // color.* and intensity.*. Without a field the others mean nothing and are not written.
 Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Text& field_text) {
@@ -25,6 +35,17 @@ Keys field_map_keys(const std::string& path, FieldMap Component::*map, const Tex
           },
           [map](Component& component, const std::string& value) { (component.*map).field = value; },
           field_text),
+      not_written(excluding(key<Component, std::string>(
+                                path + ".formula", formula_text(),
+                                [map](const Component& component) {
+                                  const std::string& field = (component.*map).field;
+                                  return field.empty() ? std::nullopt : std::optional(field);
+                                },
+                                [map](Component& component, const std::string& value) {
+                                  (component.*map).field = value;
+                                },
+                                {"Instead of `field`: see [Formulas](#formulas).", "", "none"}),
+                            {path + ".field"})),
       key<Component, Scaling>(
           path + ".scaling",
           choice<Scaling>({{"linear", Scaling::linear},

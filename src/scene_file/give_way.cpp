@@ -8,17 +8,22 @@
 #include <cstddef>
 #include <string>
 
+#include "formula/formula.h"
 #include "splotchcl/camera.h"
 
 namespace splotchcl::scene_file {
 namespace {
 
-// A range that was found in the data of one field is none of another field's.
+// A range that was found in the data of one field is none of another field's; and of a formula it
+// is the user who says whether it is scaled once more.
 void give_way(const FieldMap& before, const FieldMap& suggested, const std::string& label,
               const IsGiven& is_given, FieldMap& map) {
   if (map.field == before.field || before.field != suggested.field) return;
   const bool is_suggested_minimum = before.minimum == suggested.minimum;
   const bool is_suggested_maximum = before.maximum == suggested.maximum;
+  const bool is_suggested_scaling = before.scaling == suggested.scaling;
+  if (Formula::may_be(map.field) && is_suggested_scaling && !is_given(label + ".scaling"))
+    map.scaling = Scaling::linear;
   if (is_suggested_minimum && !is_given(label + ".min")) map.minimum.reset();
   if (is_suggested_maximum && !is_given(label + ".max")) map.maximum.reset();
 }
@@ -132,7 +137,8 @@ void replace_colors(const std::string& label, const IsGiven& is_given, Component
                     Origins& origins) {
   const bool are_both = !component.color_vector.empty() && !component.color.field.empty();
   if (!are_both || !component.absorption_palette.empty()) return;
-  const bool gives_vector = is_given(label + ".vector"), gives_field = is_given(label + ".field");
+  const bool gives_vector = is_given(label + ".vector"),
+             gives_field = is_given(label + ".field") || is_given(label + ".formula");
   if (gives_vector && !gives_field) {
     component.color = FieldMap();
     forget(label, is_given, origins);

@@ -6,6 +6,7 @@
 
 #include "scene/picture_limits.h"
 #include "scene_file/key_builder.h"
+#include "scene_file/key_names.h"
 
 namespace splotchcl::scene_file {
 
@@ -299,6 +300,13 @@ std::vector<std::string> names_in_table(const std::string& path) {
     const std::string name = rest.substr(0, rest.find('.'));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
+  return names;
+}
+
+std::vector<std::string> key_names() {
+  std::vector<std::string> names;
+  for (const Key& key : all_keys())
+    names.push_back(key.path);
   return names;
 }
 

@@ -22,9 +22,8 @@ std::optional<Texts> read_conditions(const toml::node& node) {
       conditions.push_back(*text);
     }
   }
-  for (const std::string& condition : conditions) {
-    if (!parse_condition(condition)) return std::nullopt;
-  }
+  for (const std::string& condition : conditions)
+    parse_condition(condition, "condition");
   return conditions.empty() ? std::nullopt : std::optional(conditions);
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -17,18 +16,6 @@
 
 namespace splotchcl {
 namespace {
-
-using Operator = Comparison::Operator;
-
-// Those of two characters first: "<=" begins with "<".
-constexpr std::array<std::pair<const char*, Operator>, 6> operators = {{
-    {"<=", Operator::at_most},
-    {">=", Operator::at_least},
-    {"==", Operator::equal},
-    {"!=", Operator::not_equal},
-    {"<", Operator::less},
-    {">", Operator::more},
-}};
 
 constexpr const char* operator_characters = "<>=!";
 
@@ -65,73 +52,60 @@ std::optional<std::uint64_t> whole_number(const std::string& text) {
   return is_whole ? std::optional(static_cast<std::uint64_t>(*real)) : std::nullopt;
 }
 
-template <typename Number>
-bool compare(Operator op, Number value, Number number) {
-  switch (op) {
-    case Operator::less:
-      return value < number;
-    case Operator::at_most:
-      return value <= number;
-    case Operator::more:
-      return value > number;
-    case Operator::at_least:
-      return value >= number;
-    case Operator::equal:
-      return value == number;
-    case Operator::not_equal:
-      return value != number;
-  }
-  return false;
+// "`field` op number"; nothing for what is none.
+std::optional<std::string> with_quoted_name(const std::string& comparison) {
+  const std::size_t place = comparison.find_first_of(operator_characters);
+  if (place == std::string::npos) return std::nullopt;
+  const std::string field = trimmed(comparison.substr(0, place));
+  const bool is_name =
+      !field.empty() && !begins_with_joint(field) && field.find('`') == std::string::npos;
+  const std::size_t behind = comparison.find_first_not_of(operator_characters, place);
+  if (!is_name || behind == std::string::npos) return std::nullopt;
+  const auto number = parse_number(trimmed(comparison.substr(behind)));
+  if (!number || !std::isfinite(*number)) return std::nullopt;
+  return "`" + field + "`" + comparison.substr(place);
 }
 
-std::optional<Comparison> parse_comparison(const std::string& text) {
-  const std::size_t place = text.find_first_of(operator_characters);
-  if (place == std::string::npos) return std::nullopt;
-  Comparison comparison;
-  comparison.field = trimmed(text.substr(0, place));
-  if (comparison.field.empty() || begins_with_joint(comparison.field)) return std::nullopt;
-  for (const auto& [symbol, op] : operators) {
-    const std::string spelled = symbol;
-    if (text.compare(place, spelled.size(), spelled) != 0) continue;
-    const std::string right = trimmed(text.substr(place + spelled.size()));
-    const auto number = parse_number(right);
-    if (!number || !std::isfinite(*number)) return std::nullopt;
-    comparison.op = op;
-    comparison.number = *number;
-    comparison.whole = whole_number(right);
-    return comparison;
+std::optional<std::string> with_quoted_names(const std::string& text) {
+  std::string any;
+  for (const std::string& part : split_at(text, " or ")) {
+    std::string all;
+    for (const std::string& one : split_at(part, " and ")) {
+      const auto comparison = with_quoted_name(one);
+      if (!comparison) return std::nullopt;
+      all += (all.empty() ? "" : " && ") + *comparison;
+    }
+    any += (any.empty() ? "" : " || ") + all;
   }
-  return std::nullopt;
+  return any;
 }
 
 }  // namespace
 
 const char* const condition_form =
-    "a condition such as \"temperature > 1e6\" or \"density >= 3 and mass < 1\" (or with or), or "
-    "an "
-    "array of "
-    "conditions that all must hold, each with <, <=, >, >=, == or != between a field and a number";
+    "a condition such as \"temperature > 1e6\" or \"density >= 3 && mass < 1\", or an array of "
+    "conditions that all must hold";
 
-bool Comparison::holds(double value) const {
-  return !std::isnan(value) && compare(op, value, number);
-}
-
-bool Comparison::holds_for_id(std::uint64_t id) const {
-  return whole && compare(op, id, *whole);
-}
-
-std::optional<Condition> parse_condition(const std::string& text) {
-  Condition condition;
-  for (const std::string& part : split_at(text, " or ")) {
-    Conjunction all;
-    for (const std::string& one : split_at(part, " and ")) {
-      const auto comparison = parse_comparison(one);
-      if (!comparison) return std::nullopt;
-      all.push_back(*comparison);
-    }
-    condition.push_back(std::move(all));
+std::optional<Formula> parse_comparisons(const std::string& text) {
+  const std::optional<std::string> quoted = with_quoted_names(text);
+  if (!quoted) return std::nullopt;
+  try {
+    return Formula::parse(*quoted, "condition");
+  } catch (const UsageError&) {
+    return std::nullopt;
   }
-  return condition;
+}
+
+Formula parse_condition(const std::string& text, const std::string& what) {
+  try {
+    const Formula formula = Formula::parse(text, what);
+    if (formula.is_condition()) return formula;
+  } catch (const UsageError&) {
+    if (auto comparisons = parse_comparisons(text)) return std::move(*comparisons);
+    throw;
+  }
+  throw UsageError(
+      fmt::format("{}: found the number \"{}\", expected {}", what, text, condition_form));
 }
 
 namespace {

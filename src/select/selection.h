@@ -6,31 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "formula/formula.h"
+
 namespace splotchcl {
 
-// "field op number"
-struct Comparison {
-  enum class Operator { less, at_most, more, at_least, equal, not_equal };
-  std::string field;
-  Operator op = Operator::less;
-  double number = 0;
-  // The same, exact, where it is one that an identifier may have.
-  std::optional<std::uint64_t> whole;
+// A condition as a formula; where it is none, as parse_comparisons() has it. `what`
+// begins the message of the UsageError for a text that is none.
+Formula parse_condition(const std::string& text, const std::string& what);
 
-  // False for a value that is not a number, also for not_equal.
-  bool holds(double value) const;
-  // Against `whole`, which it needs.
-  bool holds_for_id(std::uint64_t id) const;
-};
-
-// Holds where all of its comparisons do.
-using Conjunction = std::vector<Comparison>;
-// Holds where any of its parts does.
-using Condition = std::vector<Conjunction>;
-
-// Comparisons joined by the words "and" and "or", of which "and" binds more closely; nothing when
-// the text is no condition.
-std::optional<Condition> parse_condition(const std::string& text);
+// The same of comparisons of fields with numbers, joined by "and" and "or": what stands before each
+// comparison is the field's name, whatever it is made of. Nothing for other texts.
+std::optional<Formula> parse_comparisons(const std::string& text);
 
 // Completes "expected ...".
 extern const char* const condition_form;

@@ -78,8 +78,9 @@ TEST(ParticleKeys, TakePathsFromTheFoldersOfTheirFiles) {
 
 TEST(ParticleKeys, RefuseWhatIsNoSelection) {
   EXPECT_THAT(refused("select.where = \"mass = 3\""),
-              HasSubstr("scene.toml:3: key component.0.select.where: found string \"mass = 3\", "
-                        "expected a condition such as"));
+              HasSubstr("scene.toml:3: key component.0.select.where: condition: found = at "
+                        "character 6 of \"mass = 3\", "
+                        "expected == to compare"));
   EXPECT_THAT(refused("select.where = [\"mass > 3\", \"heavy\"]"), HasSubstr("select.where"));
   EXPECT_THAT(refused("select.where = []"), HasSubstr("select.where"));
   EXPECT_THAT(refused("select.where = 3"), HasSubstr("select.where"));

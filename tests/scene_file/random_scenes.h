@@ -59,6 +59,7 @@ class RandomValues {
         {"a number > 0, or [x, y, z]", {"1e-9", "[1, 2.5, 3e+40]"}},
         {"a particle type", {"31", "\"stars\"", "[1, \"boundary\", 6]"}},
         {"a list of paths", {"\"a%03d\"", "\"a%03db%%\"", "[\"a\"]", "[\"é\", \"b\\tc\"]"}},
+        {"a formula", {"\"log10(U) * RHO\"", "\"x > 1 ? -x^2 : `é 1`\""}},
         {"a condition", {"\"U > 1e5\"", "[\"U > 1e5\", \"RHO <= -3.5 or \\\"é\\\" != 0\"]"}},
         {"tables in increasing order",
          {"[{ frame = 1e-3, \"image.gamma\" = 1.5, \"component.a.palette\" = \"magma\" }]",

@@ -38,6 +38,7 @@ class Splotchcl(CMakePackage):
     depends_on("libzip")
     depends_on("cfitsio")
     depends_on("libharu")
+    depends_on("muparser@2.3:")
     with when("+python"):
         extends("python@3.10:")
         depends_on("py-pybind11@2.10:", type="build")

@@ -94,6 +94,38 @@ Camera upright(Camera camera, const ImageSettings& image) {
 
 }  // namespace
 
+namespace {
+
+constexpr int frames_of_itself = 250;  // ten seconds
+
+// A setting of a key that keyframes have, as text.
+Keyframe at_snapshot(double frame, const ListedSnapshot& snapshot) {
+  return {frame, {{"time.index", fmt::format("{}", snapshot.index)}}};
+}
+
+// What says nothing of a path shows all of its snapshots, or one from all sides.
+std::string suggest_path(Scene& scene) {
+  if (scene.path.is_set() || scene.movie.frames) return {};
+  scene.movie.frames = frames_of_itself;
+  if (!scene.time.is_set()) {
+    scene.path.orbit.emplace();
+    return fmt::format("no path: an orbit of 360 degrees in {} frames (path.orbit, movie.frames)",
+                       frames_of_itself);
+  }
+  const std::vector<ListedSnapshot> list = list_snapshots(scene.time);
+  if (scene.time.interpolation == Interpolation::none)
+    scene.movie.frames = static_cast<int>(list.size());
+  scene.path.is_smooth = false;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const double part = list.size() > 1 ? double(i) / double(list.size() - 1) : 0;
+    scene.path.keyframes.push_back(at_snapshot(part * (*scene.movie.frames - 1), list[i]));
+  }
+  return fmt::format("no path: {} snapshots in {} frames (path.keyframes, movie.frames)",
+                     list.size(), *scene.movie.frames);
+}
+
+}  // namespace
+
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
                      const std::shared_ptr<Communicator>& ranks)
     : ranks_(ranks) {
@@ -102,6 +134,8 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   SceneWithSnapshot opened = open_scene(path, settings, ranks);
   scene_ = std::move(opened.scene);
   notes_ = std::move(opened.notes);
+  const std::string suggested = suggest_path(scene_);
+  if (!suggested.empty()) notes_.push_back(suggested);
   watch_files();
   opening.check();
   if (!scene_.camera && !path_has_camera(scene_)) {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import tempfile
 from collections.abc import Mapping, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass, field
@@ -23,7 +24,7 @@ from ._units import CarriedUnit, unit_of
 
 @dataclass
 class Map:
-    """A map (docs/maps.md). ``numpy.asarray(map)`` is `values`."""
+    """A map (docs/maps.md). In a notebook it shows itself as a figure. ``numpy.asarray(map)`` is `values`."""
 
     _map: _core.Map = field(repr=False)
     notes: list[str]
@@ -97,6 +98,12 @@ class Map:
         right, up = self._map.center_right, self._map.center_up
         return right - half[0], right + half[0], up - half[1], up + half[1]
 
+    def _repr_png_(self) -> bytes:
+        with tempfile.TemporaryDirectory() as folder:
+            figure = Path(folder, "map.png")
+            self._map.save(figure, self.scene._scene, self._source._source)
+            return figure.read_bytes()
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes .fits, .hdf5, .npy or .exr with the numbers, .pdf or a picture as a figure.
 
@@ -121,6 +128,7 @@ def column(
     *,
     particles: Source | None = None,
     types: Sequence[str | int] | str | None = None,
+    where: Sequence[str] | str | None = None,
     statistic: str | None = None,
     slice: bool = False,
     view: str = "xy",
@@ -145,13 +153,15 @@ def column(
     scene, particles, size, tolerance, device, settings, progress
         As for `render`. The map shows one component: the first, or ``map.component``.
     field : str, optional
-        None: the surface density. "counts", "line_of_sight_velocity", or a field, of which the
-        weighted mean is shown.
+        None: the surface density. "counts", "line_of_sight_velocity", or a field or a formula of
+        fields, "log10(density * temperature)", of which the weighted mean is shown.
     weight : str, optional
         Of means: "mass" (None says the same; of slices "volume"), "volume", "constant" (all particles
         alike), or a field.
     types : str or sequence, optional
         Particle types, such as "gas" or "gas,stars", that the first component has in place of its own.
+    where : str or sequence of str, optional
+        Only particles that fulfil this, such as "temperature > 1e6 && ParticleIDs < 500000".
     statistic : {"mean", "dispersion", "integral"}, optional
     slice : bool
         In the plane through the center, instead of along the line.
@@ -204,6 +214,10 @@ def column(
         names = [word.strip() for word in types.split(",")] if isinstance(types, str) else list(types)
         keys[f"component.{keys.get('map.component', 0)}.types"] = names
     what = open_drawable(scene, particles, keys)
+    if where is not None:
+        key = f"component.{keys.get('map.component', 0)}.select.where"
+        given = [where] if isinstance(where, str) else list(where)
+        what.scene[key] = [*(what.scene[key] or []), *given]
     what.notes.extend(_use_carried_units(what.scene, what.source))
     # Only now it is known what the snapshot's lengths are in.
     what.scene.update(

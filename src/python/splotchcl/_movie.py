@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import html
 import os
 import tempfile
 from collections.abc import Mapping
@@ -19,13 +21,31 @@ from ._untrusted import check_pictures_of
 
 @dataclass(frozen=True)
 class Film:
-    """What there is of a film."""
+    """What there is of a film. In a notebook it shows itself, up to 20 MB of .mp4 and .webm."""
 
     path: Path
     state: str
     """"complete", "complete before", "part is drawn" or "joined by another"."""
     frames: int
     notes: list[str]
+
+    def _repr_html_(self) -> str | None:
+        kind = _SHOWN_KINDS.get(self.path.suffix.lower())
+        if kind is None or not self.state.startswith("complete") or not self.path.is_file():
+            return None
+        size = self.path.stat().st_size
+        if size > _MOST_SHOWN_BYTES:
+            name = html.escape(str(self.path))
+            return f"<p>{name}: {size / 1e6:.0f} MB, too large to be shown here</p>"
+        data = base64.b64encode(self.path.read_bytes()).decode("ascii")
+        return (
+            f'<video controls loop style="max-width: 100%" src="data:{kind};base64,{data}"></video>'
+        )
+
+
+# What browsers play. A film is copied into the notebook: larger ones would make it slow.
+_SHOWN_KINDS = {".mp4": "video/mp4", ".webm": "video/webm"}
+_MOST_SHOWN_BYTES = 20_000_000
 
 
 def movie(

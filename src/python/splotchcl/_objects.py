@@ -64,6 +64,7 @@ _PYNBODY_FIELDS: _Names = {
     "density": "rho",
     "smoothing_length": "smooth",
     "temperature": "temp",
+    "internal_energy": "u",
 }
 
 
@@ -79,7 +80,7 @@ def _load_pynbody(snapshot: Any, fields: Sequence[str]) -> Loaded:
         if kind is None:
             continue
         particles = snapshot[family]
-        there = {*particles.keys(), *particles.loadable_keys()}
+        there = _pynbody_arrays(particles, bool(stored))
         arrays = {ours: particles[name] for ours, name in _PYNBODY_FIELDS.items() if name in there}
         for name in fields:
             # What one family stores is not derived for another.
@@ -93,6 +94,15 @@ def _load_pynbody(snapshot: Any, fields: Sequence[str]) -> Loaded:
     scale = snapshot.properties.get("a")
     loaded.time = loaded.scale_factor = None if scale is None else float(scale)
     return loaded
+
+
+# What the file holds, but not what happens to have been derived of it before: else it would matter
+# what was looked at. Temperatures follow from internal energies here. Without a file all was set.
+def _pynbody_arrays(particles: Any, is_of_file: bool) -> set[str]:
+    there = {*particles.keys(), *particles.loadable_keys()}
+    if is_of_file:
+        there -= {*particles.derivable_keys()} - {*particles.loadable_keys()}
+    return there
 
 
 # How far a kernel reaches, in its smoothing lengths. pynbody's own are half of it; those that it

@@ -177,6 +177,16 @@ class Scene(MutableMapping[str, Any]):
     def __str__(self) -> str:
         return self.to_toml()
 
+    # Each component's keys by its name, or its number where it has none.
+    def _ipython_key_completions_(self) -> list[str]:
+        names = [name or str(i) for i, name in enumerate(self._scene.component_names())]
+        keys = []
+        for key in _core.scene_keys():
+            table, _, rest = key.partition(".")
+            of_components = [f"component.{name}.{rest}" for name in names]
+            keys += of_components if table == "component" else [key]
+        return keys
+
     def _change(self, settings: list[str]) -> None:
         with _unknown_keys():
             self._scene = self._scene.with_settings(settings, self._suggested)

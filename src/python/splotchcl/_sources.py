@@ -53,6 +53,9 @@ class ParticleType:
     def __iter__(self) -> Iterator[str]:
         return iter(self.fields)
 
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.fields, *self.derived]
+
     def __contains__(self, field: object) -> bool:
         """Whether there is such a field, by its name here or in the file, or it can be derived."""
         if not isinstance(field, str):
@@ -131,6 +134,9 @@ class Source:
 
     def __len__(self) -> int:
         return len(self.types)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self.types)
 
     # Of no types it is particles all the same, to which some may be added.
     def __bool__(self) -> bool:

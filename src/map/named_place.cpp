@@ -1,0 +1,127 @@
+#include "map/named_place.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "load/components.h"
+#include "load/missing_sizes.h"
+#include "map/geometry.h"
+#include "snapshot/field_names.h"
+#include "snapshot/unit.h"
+#include "splotchcl/error.h"
+#include "splotchcl/map.h"
+
+namespace splotchcl {
+namespace {
+
+const std::string halo_words = "halo=";
+
+[[noreturn]] void refuse(const std::string& words, const std::string& what) {
+  throw UsageError(fmt::format(
+      "{}: found \"{}\", expected X,Y,Z, such as 25,25,25Mpc, or box, mass, densest or halo=NUMBER",
+      what, words));
+}
+
+int halo_number(const std::string& words, const std::string& what) {
+  const char* const begin = words.data() + halo_words.size();
+  const char* const end = words.data() + words.size();
+  int number = -1;
+  const auto [rest, error] = std::from_chars(begin, end, number);
+  if (error != std::errc() || rest != end || number < 0) refuse(words, what);
+  return number;
+}
+
+// One that draws what all of the scene's components of its own snapshot draw.
+Component joined_component(const Scene& scene) {
+  Component joined = scene.components.front();
+  for (const Component& component : scene.components) {
+    if (!component.snapshot.empty() || component.placement.moves()) continue;
+    for (const int type : component.types) {
+      const bool is_there = std::count(joined.types.begin(), joined.types.end(), type) > 0;
+      if (!is_there) joined.types.push_back(type);
+    }
+  }
+  return joined;
+}
+
+// No sizes but where they tell what is dense: to find them may take long.
+MapMatter read_matter_of_place(const ComponentFields& fields, MapCenter center) {
+  MapMatter matter;
+  matter.count = fields.count();
+  matter.before_selecting = fields.count_before_selecting();
+  matter.origin = fields.origin();
+  matter.position = fields.positions();
+  matter.smoothing_length = Column::uniform(1);
+  if (fields.masses_are_known()) matter.mass = fields.with_factors(fields.masses());
+  if (center == MapCenter::densest) matter.density = fields.scalars("density", "center");
+  return matter;
+}
+
+Scene scene_of_place(const Scene& scene, const std::string& words, const std::string& what) {
+  Scene one = scene;
+  const bool is_halo = words.rfind(halo_words, 0) == 0;
+  const bool is_densest = words == "densest";
+  if (!is_halo && !is_densest && words != "mass" && words != "box") refuse(words, what);
+  one.map.center.reset();
+  one.map.width.reset();
+  one.map.view = MapView::xy;
+  one.map.center_at = is_densest                   ? MapCenter::densest
+                      : is_halo || words == "mass" ? MapCenter::mass
+                                                   : MapCenter::box;
+  one.components = {is_densest ? scene.components.front() : joined_component(scene)};
+  Component& component = one.components.front();
+  if (is_halo) component.select.halo = halo_number(words, what);
+  component.color = {};
+  component.intensity = {};
+  component.color_vector.clear();
+  one.finish = {};
+  one.sort = {};
+  return one;
+}
+
+}  // namespace
+
+std::string unit_of_lengths(const std::string& lengths) {
+  const std::size_t comma = lengths.rfind(','), first = comma == std::string::npos ? 0 : comma + 1;
+  const std::size_t last = lengths.find_first_not_of(' ', first);
+  if (last == std::string::npos) return {};
+  const std::size_t unit = lengths.find_first_not_of(' ', end_of_number(lengths, last));
+  return unit == std::string::npos ? "" : lengths.substr(unit);
+}
+
+Vec3 read_place(const std::string& text, const Scene& scene, const Snapshot& snapshot,
+                const std::string& what) {
+  const std::string unit = unit_of_lengths(text);
+  std::istringstream words(text);
+  std::vector<double> place;
+  for (std::string word; std::getline(words, word, ',');) {
+    if (unit_of_lengths(word).empty()) word += unit;
+    place.push_back(read_map_length(word, scene, snapshot, what));
+  }
+  if (place.size() != 3) refuse(text, what);
+  return {{place[0], place[1], place[2]}};
+}
+
+Vec3 find_named_place(const std::string& words, const Scene& scene, const Snapshot& snapshot,
+                      const std::string& what, std::vector<std::string>& notes) {
+  require_chosen_components(scene);
+  const Scene one = scene_of_place(scene, words, what);
+  const Component& component = one.components.front();
+  const PeriodicRegion region = find_region(one, component, snapshot, notes);
+  OpenComponents open(one, snapshot, missing_sizes(one, {}), notes, region.box);
+  ComponentFields& fields = open.fields().front();
+  fields.select();
+  if (fields.count() == 0) {
+    throw UsageError(
+        fmt::format("{}: found \"{}\", but select and exclude leave none of {} particles, expected "
+                    "some to find "
+                    "the place by; give it as X,Y,Z",
+                    what, words, fields.count_before_selecting()));
+  }
+  return decide_geometry(one, read_matter_of_place(fields, one.map.center_at), region).center;
+}
+
+}  // namespace splotchcl

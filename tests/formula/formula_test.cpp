@@ -1,0 +1,268 @@
+// Formulas on fields: what they mean, in which unit, and what is none.
+#include "formula/formula.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "formula/formula_functions.h"
+#include "formula/formula_units.h"
+#include "formula/formula_values.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+FieldValues values_of(std::vector<double> values) {
+  return [values = std::move(values)](std::size_t begin, std::size_t end, double* out) {
+    for (std::size_t i = begin; i < end; ++i)
+      *out++ = values[i];
+  };
+}
+
+FormulaSources sources(const std::map<std::string, std::vector<double>>& fields) {
+  FormulaSources sources;
+  sources.values = [fields](const std::string& name) { return values_of(fields.at(name)); };
+  sources.whole_numbers = [](const std::string&) { return std::nullopt; };
+  return sources;
+}
+
+std::vector<double> evaluate(const std::string& text, const FormulaSources& sources,
+                             std::size_t count) {
+  const FormulaValues values(Formula::parse(text, "formula"), sources);
+  std::vector<double> out(count);
+  values.evaluate(0, count, out.data());
+  return out;
+}
+
+// With x = 3 and y = 5.
+double value_of(const std::string& text) {
+  return evaluate(text, sources({{"x", {3}}, {"y", {5}}}), 1).front();
+}
+
+std::string refusal_of(const std::string& text) {
+  try {
+    Formula::parse(text, "here");
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "no refusal of " + text;
+}
+
+TEST(Formula, HasTheOrderOfOperationsOfMathematics) {
+  EXPECT_EQ(value_of("1 + 2 * 3"), 7);
+  EXPECT_EQ(value_of("2 * 3 ^ 2"), 18);
+  EXPECT_EQ(value_of("2 ** 3"), 8);
+  EXPECT_EQ(value_of("-x^2"), -9);
+  EXPECT_EQ(value_of("2^-1"), 0.5);
+  EXPECT_EQ(value_of("2^3^2"), 512);
+  EXPECT_EQ(value_of("8 - 3 - 2"), 3);
+  EXPECT_EQ(value_of("8 / 4 / 2"), 1);
+  EXPECT_EQ(value_of("(1 + x) * -y"), -20);
+  EXPECT_EQ(value_of("1.5e1 + +x"), 18);
+}
+
+TEST(Formula, ComparesAndJoinsAsLanguagesDo) {
+  EXPECT_EQ(value_of("x < 4 && y > 4"), 1);
+  EXPECT_EQ(value_of("x < 4 and not y > 4"), 0);
+  EXPECT_EQ(value_of("x > 4 or x > 1 && y == 5"), 1);
+  EXPECT_EQ(value_of("!(x >= 3) || y != 5"), 0);
+  EXPECT_EQ(value_of("x <= 3 ? 10 : 20"), 10);
+  EXPECT_EQ(value_of("x + 10 * (y > 4)"), 13);
+}
+
+TEST(Formula, HasTheFunctionsThatAreListed) {
+  EXPECT_DOUBLE_EQ(value_of("log10(x * y)"), std::log10(15));
+  EXPECT_DOUBLE_EQ(value_of("log(x)"), std::log(3));
+  EXPECT_DOUBLE_EQ(value_of("hypot(x, y)"), std::hypot(3, 5));
+  EXPECT_DOUBLE_EQ(value_of("atan2(x, y)"), std::atan2(3, 5));
+  EXPECT_DOUBLE_EQ(value_of("pow(x, 2) + min(x, y) + max(x, y)"), 17);
+  EXPECT_DOUBLE_EQ(value_of("cos(pi)"), -1);
+  for (const FormulaFunction& function : formula_functions()) {
+    const std::string arguments = function.arguments() == 1 ? "(1)" : "(1, 2)";
+    const double expected = function.of_one != nullptr ? function.of_one(1) : function.of_two(1, 2);
+    EXPECT_EQ(value_of(function.name + arguments), expected) << function.name;
+  }
+}
+
+TEST(Formula, KnowsItsFieldsByWhateverTheyAreCalled) {
+  const Formula formula = Formula::parse("`Points:0` + a_1.b * `Points:0` + ρ", "formula");
+  EXPECT_THAT(formula.fields(), ElementsAre("Points:0", "a_1.b", "ρ"));
+}
+
+TEST(Formula, HoldsForNothingThatIsNoNumber) {
+  const FormulaSources values = sources({{"x", {nan, 1}}});
+  for (const char* text : {"x > 5", "!(x > 5)", "x == 5", "x != 5", "!(x == 5)", "!(x != 5)",
+                           "not (x > 5 or x < 2)", "sqrt(-1 + 0*x) != 3"}) {
+    EXPECT_EQ(evaluate(text, values, 2).front(), 0) << text;
+  }
+  EXPECT_TRUE(std::isnan(evaluate("2 * x", values, 2).front()));
+  EXPECT_TRUE(std::isnan(evaluate("max(1, x)", values, 2).front()));
+  EXPECT_TRUE(std::isnan(evaluate("min(x, 1)", values, 2).front()));
+}
+
+TEST(Formula, ComparesWholeNumbersOf64BitsExactly) {
+  const auto ids = std::make_shared<const std::vector<std::uint64_t>>(
+      std::vector<std::uint64_t>{9007199254740993, 9007199254740992, 18446744073709551615U});
+  FormulaSources unsigned_ids = sources({}), signed_ids = sources({});
+  unsigned_ids.whole_numbers = [ids](const std::string&) { return WholeNumbers{ids, false}; };
+  signed_ids.whole_numbers = [ids](const std::string&) { return WholeNumbers{ids, true}; };
+  EXPECT_THAT(evaluate("id == 9007199254740993", unsigned_ids, 3), ElementsAre(1, 0, 0));
+  EXPECT_THAT(evaluate("9007199254740992 < id", unsigned_ids, 3), ElementsAre(1, 0, 1));
+  EXPECT_THAT(evaluate("!(id < 18446744073709551615)", unsigned_ids, 3), ElementsAre(0, 0, 1));
+  EXPECT_THAT(evaluate("id >= 0", signed_ids, 3), ElementsAre(1, 1, 0));
+  EXPECT_THAT(evaluate("id == -1", signed_ids, 3), ElementsAre(0, 0, 1));
+  EXPECT_THROW(evaluate("id / 2", unsigned_ids, 3), DataError);
+}
+
+TEST(Formula, AsksForAFieldOnceAndForNoOther) {
+  std::vector<std::string> asked;
+  FormulaSources values = sources({{"x", {1}}, {"y", {2}}});
+  values.values = [&asked](const std::string& name) {
+    asked.push_back(name);
+    return values_of({1});
+  };
+  evaluate("x + x * x > y && y < 3", values, 1);
+  EXPECT_THAT(asked, ElementsAre("x", "y"));
+}
+
+TEST(Formula, HasTheSameValuesOnSeveralThreadsAndInParts) {
+  constexpr std::size_t count = 5000;
+  std::vector<double> x(count);
+  for (std::size_t i = 0; i < count; ++i)
+    x[i] = static_cast<double>(i);
+  const FormulaValues values(Formula::parse("x * x + 1", "formula"), sources({{"x", x}}));
+  std::vector<double> out(count);
+  std::vector<std::thread> threads;
+  for (std::size_t part = 0; part < 5; ++part) {
+    threads.emplace_back(
+        [&, part] { values.evaluate(part * 1000, (part + 1) * 1000, out.data() + part * 1000); });
+  }
+  for (std::thread& thread : threads)
+    thread.join();
+  for (std::size_t i = 0; i < count; ++i)
+    ASSERT_EQ(out[i], x[i] * x[i] + 1);
+}
+
+TEST(Formula, TellsWhatIsNoneInOneLine) {
+  const std::map<std::string, std::string> refusals = {
+      {"", "found the end"},
+      {"x +", "found the end"},
+      {"x y", "found y at character 3"},
+      {"(x", "expected an operator or )"},
+      {"x = 3", "expected == to compare"},
+      {"x & y", "expected && or and"},
+      {"1 < x < 3", "1 < x && x < 2"},
+      {"x && y > 1", "found the number x beside &&"},
+      {"(x > 1) > 0", "found the comparison"},
+      {"lg10(x)", "did you mean log10?"},
+      {"min(x)", "with 1 argument"},
+      {"sqrt(x, y)", "with 2 arguments"},
+      {"x; y", "found ';'"},
+      {"\"x\"", "found '\"'"},
+      {"f(x) + 1", "found the function f"},
+      {"x = f(x)", "expected == to compare"},
+      {"x[0]", "found '['"},
+      {"1e999", "expected a number such as 1.5e6"},
+      {"1.2.3", "expected a number"},
+      {"`x", "found a ` that begins no name"},
+      {"x > 1 ? 2", "expected a :"},
+  };
+  for (const auto& [text, expected] : refusals) {
+    const std::string refusal = refusal_of(text);
+    EXPECT_THAT(refusal, AllOf(HasSubstr("here: found"), HasSubstr(expected))) << text;
+    EXPECT_EQ(refusal.find('\n'), std::string::npos) << text;
+  }
+}
+
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i)
+    all += text;
+  return all;
+}
+
+TEST(Formula, IsBoundedInLengthDepthTermsAndFields) {
+  EXPECT_THAT(refusal_of(repeated("1+", 600) + "1"), HasSubstr("1201 characters"));
+  EXPECT_THAT(refusal_of(repeated("(", 60) + "x" + repeated(")", 60)), HasSubstr("50 deep"));
+  EXPECT_THAT(refusal_of(repeated("-", 60) + "x"), HasSubstr("50 deep"));
+  EXPECT_THAT(refusal_of(repeated("!", 60) + "x"), HasSubstr("50 deep"));
+  EXPECT_THAT(refusal_of(repeated("2^", 60) + "x"), HasSubstr("50 deep"));
+  EXPECT_THAT(refusal_of(repeated("1+", 300) + "1"), HasSubstr("more than 400"));
+  std::string sum = "0";
+  for (int i = 0; i < 40; ++i)
+    sum += "+x" + std::to_string(i);
+  EXPECT_THAT(refusal_of(sum), HasSubstr("more than 32 fields"));
+}
+
+TEST(Formula, StaysWithinTheEvaluatorsLimitsAtItsOwn) {
+  EXPECT_EQ(value_of(repeated("1+", 199) + "1"), 200);
+  EXPECT_EQ(value_of(repeated("(", 49) + "x" + repeated(")", 49)), 3);
+  EXPECT_TRUE(std::isnan(value_of(repeated("1e300*", 150) + "0")));
+}
+
+// T in K, rho in g/cm^3, r in kpc, R in Mpc, n unknown.
+std::optional<WrittenUnit> unit_of_field(const std::string& name) {
+  const std::map<std::string, std::string> units = {
+      {"T", "K"}, {"rho", "g/cm^3"}, {"r", "kpc"}, {"R", "Mpc"}, {"v", "km/s"}};
+  const auto found = units.find(name);
+  return found == units.end() ? std::nullopt : written_unit(found->second, {});
+}
+
+std::string unit(const std::string& text) {
+  const auto found = unit_of_formula(Formula::parse(text, "here"), unit_of_field, "here");
+  return found ? found->text() : "none";
+}
+
+TEST(FormulaUnits, FollowFromProductsQuotientsAndPowers) {
+  EXPECT_EQ(unit("2 * T"), "K");
+  EXPECT_EQ(unit("T / 3 + 5"), "K");
+  EXPECT_EQ(unit("T * rho"), "K (g/cm^3)");
+  EXPECT_EQ(unit("1 / r^2"), "kpc^-2");
+  EXPECT_EQ(unit("sqrt(r * r)"), "kpc");
+  EXPECT_EQ(unit("T * rho^(-2/3)"), "K (g/cm^3)^-0.666667");
+  EXPECT_EQ(unit("max(r, 2 * abs(r))"), "kpc");
+  EXPECT_EQ(unit("T > 1 ? r : -r"), "kpc");
+  EXPECT_EQ(unit("r / r"), "none");
+  EXPECT_EQ(unit("log10(T * rho)"), "none");
+  EXPECT_EQ(unit("T * n"), "none");
+  EXPECT_EQ(unit("T > 5"), "none");
+}
+
+TEST(FormulaUnits, ThatDifferAreNotAddedNorCompared) {
+  for (const char* text : {"T + rho", "T > rho", "T == 1 || rho < T", "min(T, rho)",
+                           "T > 1 ? T : rho", "hypot(rho, T)", "T * r - rho * r"}) {
+    EXPECT_THROW(unit(text), UsageError) << text;
+  }
+  try {
+    unit("2 * T + rho > 3");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("here: found 2 * T in K beside rho in g/cm^3")));
+  }
+}
+
+TEST(FormulaUnits, OfOneDimensionButNotOneSizeAreRefusedToo) {
+  EXPECT_THROW(unit("r + R"), UsageError);
+  EXPECT_EQ(unit("r / R"), "kpc Mpc^-1");
+}
+
+TEST(FormulaUnits, ThatAreNotKnownFitAll) {
+  EXPECT_EQ(unit("T + n"), "none");
+  EXPECT_EQ(unit("log10(T) + r"), "none");
+}
+
+}  // namespace
+}  // namespace splotchcl::test
