@@ -9,6 +9,7 @@
 #include "load/derived_fields.h"
 #include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
@@ -168,16 +169,21 @@ Json json_of(const BoxSides& box) {
 }
 
 // Empty, and a note, where nothing can be drawn.
-std::string suggested_scene(const Snapshot& snapshot, Console& console) {
+std::string suggested_scene(const Snapshot& snapshot, const InfoOptions& options,
+                            Console& console) {
   try {
-    return format_scene(suggest_scene(snapshot));
+    Scene scene = suggest_scene(snapshot);
+    if (path_in_file(options.snapshot)) scene.snapshot = options.snapshot.string();
+    scene.read.columns = options.columns;
+    scene.read.skip_lines = options.skip_lines;
+    return format_scene(scene);
   } catch (const Error& error) {
     console.note(std::string("no scene can be suggested: ") + error.what());
     return {};
   }
 }
 
-Json to_json(const Snapshot& snapshot, bool header_only, Console& console) {
+Json to_json(const Snapshot& snapshot, const InfoOptions& options, Console& console) {
   const SnapshotInfo& info = snapshot.info();
   Json json = {{"format", info.format}, {"files", Json::array()}, {"time", info.time}};
   for (const auto& file : info.files)
@@ -188,21 +194,21 @@ Json to_json(const Snapshot& snapshot, bool header_only, Console& console) {
   json["notes"] = info.notes;
   json["types"] = Json::array();
   for (const ParticleTypeInfo& type : info.types) {
-    json["types"].push_back(type_json(snapshot, type, header_only));
+    json["types"].push_back(type_json(snapshot, type, options.header));
   }
-  if (!header_only) json["scene"] = suggested_scene(snapshot, console);
+  if (!options.header) json["scene"] = suggested_scene(snapshot, options, console);
   return json;
 }
 
-void print_text(const Snapshot& snapshot, bool header_only, Console& console) {
+void print_text(const Snapshot& snapshot, const InfoOptions& options, Console& console) {
   const SnapshotInfo& info = snapshot.info();
   std::string text = header_text(info);
   for (const std::string& note : info.notes)
     text += fmt::format("note      {}\n", printable(note));
   for (const ParticleTypeInfo& type : info.types)
-    text += header_only ? type_header_text(type) + field_list_text(type)
-                        : type_text(snapshot, type, console);
-  const std::string scene = header_only ? "" : suggested_scene(snapshot, console);
+    text += options.header ? type_header_text(type) + field_list_text(type)
+                           : type_text(snapshot, type, console);
+  const std::string scene = options.header ? "" : suggested_scene(snapshot, options, console);
   if (!scene.empty()) text += "\n# The scene file that render uses for it:\n" + scene;
   std::cout << text;
 }
@@ -212,9 +218,9 @@ void print_text(const Snapshot& snapshot, bool header_only, Console& console) {
 int run_info(const InfoOptions& options, Console& console) {
   const auto snapshot = open_snapshot(options.snapshot, {options.columns, options.skip_lines});
   if (options.json) {
-    print_json(to_json(*snapshot, options.header, console));
+    print_json(to_json(*snapshot, options, console));
   } else {
-    print_text(*snapshot, options.header, console);
+    print_text(*snapshot, options, console);
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/mapped_file.h"
@@ -32,6 +33,13 @@ class SnapshotFormat {
 
   // Whether a path may go on within the file, FILE/GROUP; open() then takes such a path.
   virtual bool has_groups() const { return false; }
+
+  // The names of the groups in a group of a file; an empty one is the root. Nothing where there is
+  // no such group. Throws DataError.
+  virtual std::vector<std::string> groups_in(const std::filesystem::path&,
+                                             const std::string&) const {
+    return {};
+  }
 
   // Whether SnapshotOptions::columns means something for it.
   virtual bool has_columns() const { return false; }

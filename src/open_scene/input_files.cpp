@@ -6,6 +6,7 @@
 #include "finish/finish_picture.h"
 #include "ranks/exchange.h"
 #include "scene_file/file_names.h"
+#include "sequence/list_sequence.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
@@ -22,7 +23,7 @@ void InputFiles::add(const Snapshot& snapshot) {
 
 void InputFiles::add_snapshots(const Scene& scene) {
   if (scene.time.is_set()) {
-    for (const ListedSnapshot& snapshot : list_snapshots(scene.time))
+    for (const ListedSnapshot& snapshot : list_sequence(scene.time))
       add(path_in_file(snapshot.path).value_or(PathInFile{snapshot.path, ""}).file);
   } else {
     add(*open_snapshot_for(scene.snapshot, scene.read));

@@ -109,10 +109,8 @@ void check_time(const Scene& scene, const Origins& origins) {
     }
     return;
   }
-  // A part of each snapshot would not be the same particles, and tables have no ids to match.
+  // A part of each snapshot would not be the same particles.
   const char* single = nullptr;
-  if (!scene.read.columns.empty()) single = "read.columns";
-  if (scene.read.skip_lines > 0) single = "read.skip_lines";
   if (scene.read.every != 1) single = "read.every";
   if (scene.read.max_particles) single = "read.max_particles";
   if (single != nullptr) {

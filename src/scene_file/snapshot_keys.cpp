@@ -54,8 +54,13 @@ Keys read_keys() {
            "Or names for columns, arrays and HDF5's datasets that are called otherwise. See "
            "formats.md.",
            "", "those in the file"}),
-      key("read.skip_lines", integer(0, most), &ReadSettings::skip_lines,
-          {"Lines at the beginning of a text table that are no part of it."}),
+      key<ReadSettings, int>(
+          "read.skip_lines", integer(0, most),
+          [](const ReadSettings& read) {
+            return read.skip_lines == 0 ? std::nullopt : std::optional(read.skip_lines);
+          },
+          [](ReadSettings& read, int value) { read.skip_lines = value; },
+          {"Lines at the beginning of a text table that are no part of it.", "", "`0`"}),
       excluding(key<ReadSettings, int>(
                     "read.every", integer(1, most),
                     [](const ReadSettings& read) {

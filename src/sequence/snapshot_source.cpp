@@ -7,6 +7,7 @@
 #include "formats/snapshot_format.h"
 #include "parallel/in_background.h"
 #include "sequence/interpolated_snapshot.h"
+#include "sequence/list_sequence.h"
 #include "sequence/snapshot_pair.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
@@ -30,8 +31,16 @@ bool is_same_motion(const SequenceSettings& a, const SequenceSettings& b) {
          a.omega_lambda == b.omega_lambda && a.hubble_rate == b.hubble_rate;
 }
 
-Member open_member(const ListedSnapshot& listed) {
-  return std::make_shared<SequenceMember>(open_snapshot(listed.path));
+Member open_member(const ListedSnapshot& listed, const SnapshotOptions& options) {
+  return std::make_shared<SequenceMember>(open_snapshot(listed.path, options));
+}
+
+SnapshotOptions options_of(const Scene& scene) {
+  return {scene.read.columns, scene.read.skip_lines};
+}
+
+bool are_same(const SnapshotOptions& a, const SnapshotOptions& b) {
+  return a.columns == b.columns && a.skip_lines == b.skip_lines;
 }
 
 // A snapshot that was read before it was needed, and its match with a neighbour.
@@ -81,9 +90,10 @@ bool share_particles(const Snapshot& first, const Snapshot& second) {
 
 struct SnapshotSource::State {
   std::shared_ptr<const Snapshot> at(const Scene& scene);
-  void check(const SequenceSettings& settings);
+  void check(const Scene& scene);
 
  private:
+  void use_options(const SnapshotOptions& options);
   std::shared_ptr<const Snapshot> at_moment(const SequenceSettings& settings);
   void use_settings(const SequenceSettings& settings);
   Member member(std::size_t i);
@@ -97,6 +107,7 @@ struct SnapshotSource::State {
   std::shared_ptr<const Snapshot> single_;
 
   SequenceSettings settings_;
+  SnapshotOptions options_;
   std::vector<ListedSnapshot> list_;
   std::map<std::size_t, Member> members_;
   std::map<std::size_t, Pair> pairs_;  // by their first snapshot
@@ -108,12 +119,21 @@ struct SnapshotSource::State {
 };
 
 std::shared_ptr<const Snapshot> SnapshotSource::State::at(const Scene& scene) {
-  if (scene.time.is_set()) return at_moment(scene.time);
+  if (scene.time.is_set()) {
+    use_options(options_of(scene));
+    return at_moment(scene.time);
+  }
   if (!single_ || path_ != scene.snapshot) {
     single_ = open_snapshot_for(scene.snapshot, scene.read);
     path_ = scene.snapshot;
   }
   return single_;
+}
+
+// Snapshots that are read otherwise are others.
+void SnapshotSource::State::use_options(const SnapshotOptions& options) {
+  if (!are_same(options, options_)) list_.clear();
+  options_ = options;
 }
 
 void SnapshotSource::State::use_settings(const SequenceSettings& settings) {
@@ -126,7 +146,7 @@ void SnapshotSource::State::use_settings(const SequenceSettings& settings) {
   }
   if (has_new_list) {
     members_.clear();
-    list_ = list_snapshots(settings);
+    list_ = list_sequence(settings);
   }
   settings_ = settings;
 }
@@ -155,7 +175,7 @@ std::shared_ptr<const Snapshot> SnapshotSource::State::at_moment(const SequenceS
 
 Member SnapshotSource::State::member(std::size_t i) {
   Member& member = members_[i];
-  if (!member) member = open_member(list_[i]);
+  if (!member) member = open_member(list_[i], options_);
   return member;
 }
 
@@ -200,28 +220,30 @@ void SnapshotSource::State::read_ahead(const SequencePlace& place) {
 
   ahead_ = {};  // of another direction: waits for its end
   ahead_index_ = next;
-  ahead_ = in_background(
-      [listed = list_[next], neighbor = member(edge), is_forward, settings = settings_] {
-        Ahead ahead;
-        ahead.member = open_member(listed);
-        read_fields(*ahead.member, neighbor->fields_read());
-        if (settings.interpolation != Interpolation::none) {
-          ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings)
-                                  : make_pair(ahead.member, neighbor, settings);
-        }
-        return ahead;
-      });
+  ahead_ = in_background([listed = list_[next], neighbor = member(edge), is_forward,
+                          settings = settings_, options = options_] {
+    Ahead ahead;
+    ahead.member = open_member(listed, options);
+    read_fields(*ahead.member, neighbor->fields_read());
+    if (settings.interpolation != Interpolation::none) {
+      ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings)
+                              : make_pair(ahead.member, neighbor, settings);
+    }
+    return ahead;
+  });
 }
 
-void SnapshotSource::State::check(const SequenceSettings& settings) {
+void SnapshotSource::State::check(const Scene& scene) {
+  const SequenceSettings& settings = scene.time;
+  const SnapshotOptions options = options_of(scene);
   if (settings.interpolation == Interpolation::none) {
-    for (const ListedSnapshot& listed : list_snapshots(settings))
-      open_snapshot(listed.path);
+    for (const ListedSnapshot& listed : list_sequence(settings))
+      open_snapshot(listed.path, options);
     return;
   }
   std::unique_ptr<Snapshot> before;
-  for (const ListedSnapshot& listed : list_snapshots(settings)) {
-    std::unique_ptr<Snapshot> snapshot = open_snapshot(listed.path);
+  for (const ListedSnapshot& listed : list_sequence(settings)) {
+    std::unique_ptr<Snapshot> snapshot = open_snapshot(listed.path, options);
     if (before != nullptr) {
       if (settings.interpolation == Interpolation::hermite) {
         find_motion(before->info(), snapshot->info(), settings);
@@ -242,7 +264,7 @@ std::shared_ptr<const Snapshot> SnapshotSource::at(const Scene& scene) {
 }
 
 void SnapshotSource::check(const Scene& scene) {
-  if (scene.time.is_set()) state_->check(scene.time);
+  if (scene.time.is_set()) state_->check(scene);
 }
 
 }  // namespace splotchcl

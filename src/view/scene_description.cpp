@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "load/derived_fields.h"
-#include "snapshot/snapshot_files.h"
+#include "sequence/list_sequence.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/palette_file.h"
 
@@ -191,7 +191,7 @@ Json palettes_json(const Scene& scene) {
 
 // First and last moment of a sequence.
 Json times_json(const Scene& scene) {
-  const std::vector<ListedSnapshot> snapshots = list_snapshots(scene.time);
+  const std::vector<ListedSnapshot> snapshots = list_sequence(scene.time);
   return {snapshots.front().index, snapshots.back().index};
 }
 

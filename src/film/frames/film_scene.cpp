@@ -14,6 +14,7 @@
 
 #include "common/file_identity.h"
 #include "load/passes.h"
+#include "sequence/list_sequence.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
@@ -169,7 +170,7 @@ std::shared_ptr<const Snapshot> FilmScene::snapshot_at(const Scene& scene) {
 // Every frame lies within the sequence.
 void FilmScene::check_moments() const {
   if (!scene_.time.is_set()) return;
-  const std::vector<ListedSnapshot> list = list_snapshots(scene_.time);
+  const std::vector<ListedSnapshot> list = list_sequence(scene_.time);
   for (int frame = 0; frame < path_->frame_count(); ++frame) {
     try {
       find_place(list, scene_at(frame).time.index);

@@ -45,6 +45,13 @@ class Hdf5Formats : public SnapshotFormat {
                     ": holds a map, expected particles; give the snapshot that it is a map of");
   }
   bool has_groups() const override { return true; }
+  std::vector<std::string> groups_in(const std::filesystem::path& path,
+                                     const std::string& group) const override {
+    const Hdf5File file(path);
+    const std::string place = "/" + group;
+    if (!group.empty() && !file.has(place)) return {};
+    return file.groups(place);
+  }
   bool has_columns() const override { return true; }
   bool is_map(const std::filesystem::path& path) const override {
     try {

@@ -1,5 +1,5 @@
-// Tipsy: a header, then the particles of each type as records of single-precision numbers,
-// in either endianness.
+// Tipsy: a header, then the particles of each type as records of single-precision numbers, in
+// either endianness. Positions, and velocities with them, may have double precision.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "formats/position_origin.h"
 #include "formats/snapshot_format.h"
 #include "formats/stored_values.h"
 #include "formats/tipsy/tipsy_arrays.h"
@@ -32,20 +33,35 @@ double factor_of(const std::string& array) {
   return is_half ? smoothing_length_factor : 1;
 }
 
+// Which vectors have double precision: the length of the file tells.
+struct TipsyPrecision {
+  bool has_double_positions = false, has_double_velocities = false;
+};
+constexpr std::array<TipsyPrecision, 3> precisions = {
+    {{false, false}, {true, false}, {true, true}}};
+
 struct TipsyField {
   const char* label;
   int values_per_particle;
-  std::uint64_t bytes() const { return 4 * static_cast<unsigned>(values_per_particle); }
+  ValueKind kind(const TipsyPrecision& precision) const {
+    const std::string_view name = label;
+    const bool is_double = (name == "pos" && precision.has_double_positions) ||
+                           (name == "vel" && precision.has_double_velocities);
+    return is_double ? ValueKind::float64 : ValueKind::float32;
+  }
+  std::uint64_t bytes(const TipsyPrecision& precision) const {
+    return size_of(kind(precision)) * static_cast<unsigned>(values_per_particle);
+  }
 };
 
 struct TipsyType {
   int type;  // Gadget's number
   std::vector<TipsyField> fields;
 
-  std::uint64_t bytes_per_particle() const {
+  std::uint64_t bytes_per_particle(const TipsyPrecision& precision) const {
     std::uint64_t bytes = 0;
     for (const TipsyField& field : fields)
-      bytes += field.bytes();
+      bytes += field.bytes(precision);
     return bytes;
   }
 };
@@ -80,10 +96,10 @@ struct TipsyHeader {
   std::array<std::uint64_t, 3> counts = {};  // gas, dark, stars
   bool is_swapped = false;
 
-  std::uint64_t particle_bytes() const {
+  std::uint64_t particle_bytes(const TipsyPrecision& precision) const {
     std::uint64_t bytes = 0;
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      bytes += counts[i] * tipsy_types()[i].bytes_per_particle();
+      bytes += counts[i] * tipsy_types()[i].bytes_per_particle(precision);
     }
     return bytes;
   }
@@ -120,8 +136,12 @@ class TipsySnapshot : public Snapshot {
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
   std::vector<std::uint64_t> read_ids(int type) const override;
+  Vec3 position_origin() const override { return origin_; }
 
  private:
+  // A field that the records have.
+  StoredValues values_of(std::size_t group, const std::string& label) const;
+  void choose_origin();
   const TipsyArray* find_array(const std::string& name) const;
   std::uint64_t first_of(std::size_t group) const;  // among the particles of all types
   void find_start();
@@ -130,7 +150,9 @@ class TipsySnapshot : public Snapshot {
   std::shared_ptr<const MappedFile> file_;
   TipsyHeader header_;
   std::uint64_t start_ = padded_header_bytes;  // of the first particle
-  std::vector<TipsyArray> arrays_;             // beside the file
+  TipsyPrecision precision_;
+  Vec3 origin_ = {{0, 0, 0}};
+  std::vector<TipsyArray> arrays_;  // beside the file
   SnapshotInfo info_;
 };
 
@@ -148,6 +170,7 @@ TipsySnapshot::TipsySnapshot(const std::filesystem::path& path) : file_(MappedFi
   find_start();
   arrays_ = find_tipsy_arrays(path, header_.particles, header_.is_swapped, info_.notes);
   describe_types();
+  if (precision_.has_double_positions) choose_origin();
   info_.files_mark = hash_of_files(info_).value();
 }
 
@@ -165,17 +188,50 @@ std::uint64_t TipsySnapshot::first_of(std::size_t group) const {
 }
 
 void TipsySnapshot::find_start() {
-  const std::uint64_t particle_bytes = header_.particle_bytes();
-  if (file_->size() == particle_bytes + padded_header_bytes) return;
-  if (file_->size() == particle_bytes + unpadded_header_bytes) {
-    start_ = unpadded_header_bytes;
-    return;
+  for (const TipsyPrecision& precision : precisions) {
+    for (const std::uint64_t header : {padded_header_bytes, unpadded_header_bytes}) {
+      if (file_->size() != header_.particle_bytes(precision) + header) continue;
+      start_ = header;
+      precision_ = precision;
+      return;
+    }
   }
   throw DataError(fmt::format(
-      "{}: a Tipsy file of {} gas, {} dark and {} star particles should have {} bytes, but has {}; "
-      "it is truncated or damaged: copy or write it again",
+      "{}: a Tipsy file of {} gas, {} dark and {} star particles should have {} bytes, or {} with "
+      "positions in double precision, but has {}; it is truncated or damaged: copy or write it "
+      "again",
       file_->path().string(), header_.counts[0], header_.counts[1], header_.counts[2],
-      particle_bytes + padded_header_bytes, file_->size()));
+      header_.particle_bytes(precisions[0]) + padded_header_bytes,
+      header_.particle_bytes(precisions[1]) + padded_header_bytes, file_->size()));
+}
+
+StoredValues TipsySnapshot::values_of(std::size_t group, const std::string& label) const {
+  std::uint64_t offset = start_;
+  for (std::size_t i = 0; i < group; ++i)
+    offset += header_.counts[i] * tipsy_types()[i].bytes_per_particle(precision_);
+  const TipsyType& layout = tipsy_types()[group];
+  auto field = layout.fields.begin();
+  for (; field->label != label; ++field)
+    offset += field->bytes(precision_);
+  return {file_,
+          offset,
+          header_.counts[group],
+          field->values_per_particle,
+          layout.bytes_per_particle(precision_),
+          field->kind(precision_),
+          header_.is_swapped};
+}
+
+void TipsySnapshot::choose_origin() {
+  std::vector<std::array<double, 3>> sample;
+  const std::vector<std::uint64_t> counts(header_.counts.begin(), header_.counts.end());
+  for (const SampleRange& range : sample_ranges(counts)) {
+    const StoredValues positions = values_of(range.part, "pos");
+    for (std::uint64_t i = range.first; i < range.first + range.count; ++i)
+      sample.push_back(
+          {value_at(positions, i, 0), value_at(positions, i, 1), value_at(positions, i, 2)});
+  }
+  origin_ = choose_position_origin(sample);
 }
 
 void TipsySnapshot::describe_types() {
@@ -207,11 +263,9 @@ void TipsySnapshot::describe_types() {
 
 Column TipsySnapshot::read(int type, const std::string& name) const {
   const FieldInfo& field = require_field(info_, type, name);
-  std::uint64_t offset = start_;
   std::size_t i = 0;
-  for (; tipsy_types()[i].type != type; ++i) {
-    offset += header_.counts[i] * tipsy_types()[i].bytes_per_particle();
-  }
+  while (tipsy_types()[i].type != type)
+    ++i;
   const TipsyType& layout = tipsy_types()[i];
   const bool is_own = std::any_of(layout.fields.begin(), layout.fields.end(),
                                   [&](const TipsyField& f) { return f.label == field.file_name; });
@@ -219,11 +273,8 @@ Column TipsySnapshot::read(int type, const std::string& name) const {
     return read_tipsy_array(*find_array(field.file_name), first_of(i), header_.counts[i],
                             factor_of(field.file_name));
   }
-  for (auto before = layout.fields.begin(); before->label != field.file_name; ++before) {
-    offset += before->bytes();
-  }
-  return make_column({{file_, offset, header_.counts[i], field.values_per_particle,
-                       layout.bytes_per_particle(), ValueKind::float32, header_.is_swapped}});
+  const Vec3 origin = field.name == "position" ? origin_ : Vec3{{0, 0, 0}};
+  return make_column({values_of(i, field.file_name)}, origin);
 }
 
 std::vector<std::uint64_t> TipsySnapshot::read_ids(int type) const {

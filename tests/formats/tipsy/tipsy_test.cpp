@@ -64,6 +64,34 @@ TEST_P(Tipsy, FieldsOfAllTypesAreRead) {
   EXPECT_THAT(values_of(snapshot->read(4, "tform")), ElementsAre(41, 52));
 }
 
+// One dark particle, with or without velocities in double precision too.
+TEST_P(Tipsy, PositionsInDoublePrecisionAreToldByTheLengthOfTheFile) {
+  for (const bool has_double_velocities : {false, true}) {
+    TipsyBytes out(GetParam());
+    out.add(0.25);
+    for (const std::int32_t number : {1, 3, 0, 1, 0, 0})
+      out.add(number);
+    out.add(1.5F);
+    for (const double x : {1.0, 2.0, 1e9 + 1})
+      out.add(x);
+    for (const double v : {4.0, 5.0, 6.0}) {
+      if (has_double_velocities) {
+        out.add(v);
+      } else {
+        out.add(static_cast<float>(v));
+      }
+    }
+    out.add(7.0F);
+    out.add(8.0F);
+    const TemporaryFolder folder;
+    write_bytes(folder / "snap", out.bytes());
+    const auto snapshot = open_snapshot(folder / "snap");
+    EXPECT_THAT(absolute_positions(*snapshot, 1), ElementsAre(1, 2, 1e9 + 1));
+    EXPECT_THAT(values_of(snapshot->read(1, "velocity")), ElementsAre(4, 5, 6));
+    EXPECT_THAT(values_of(snapshot->read(1, "phi")), ElementsAre(8));
+  }
+}
+
 TEST_P(Tipsy, AHeaderWithoutPaddingIsRead) {
   const TemporaryFolder folder;
   write_bytes(folder / "snap", small_tipsy(GetParam(), false));
