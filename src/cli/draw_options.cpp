@@ -26,6 +26,13 @@ std::vector<std::string> settings_of_units(const std::string& units) {
           "map.velocity_unit='a^0.5 km/s'"};
 }
 
+// Whether the user sets the key of a setting.
+bool is_set(const std::string& setting, const std::vector<std::string>& given) {
+  const std::string key = setting.substr(0, setting.find('=') + 1);
+  return std::any_of(given.begin(), given.end(),
+                     [&key](const std::string& one) { return one.rfind(key, 0) == 0; });
+}
+
 }  // namespace
 
 std::vector<std::string> settings_of(const DrawOptions& options) {
@@ -44,7 +51,10 @@ std::vector<std::string> settings_of(const DrawOptions& options) {
 }
 
 std::vector<std::string> common_settings_of(const DrawOptions& options) {
-  std::vector<std::string> settings = settings_of_units(options.units);
+  std::vector<std::string> settings;
+  for (const std::string& unit : settings_of_units(options.units)) {
+    if (!is_set(unit, options.settings)) settings.push_back(unit);
+  }
   settings.insert(settings.end(), options.settings.begin(), options.settings.end());
   if (options.size) settings.push_back("image.size=" + *options.size);
   if (options.look) settings.push_back("look=" + *options.look);

@@ -94,9 +94,12 @@ class Membership {
     constexpr std::size_t block = std::size_t{1} << 16;
     const Formula condition = condition_on(fields_, text, key);
     const auto values = formula_values(fields_, condition, key);
-    std::vector<double> holds(is_member_.size());
+    std::vector<char> holds(is_member_.size());
     for_blocks(holds.size(), block, [&](std::size_t first, std::size_t last) {
-      values->evaluate(run_.begin + first, run_.begin + last, holds.data() + first);
+      std::vector<double> found(last - first);
+      values->evaluate(run_.begin + first, run_.begin + last, found.data());
+      std::transform(found.begin(), found.end(), holds.begin() + static_cast<std::ptrdiff_t>(first),
+                     [](double value) { return static_cast<char>(value != 0); });
     });
     keep_if([&](std::size_t i) { return holds[i - run_.begin] != 0; });
   }

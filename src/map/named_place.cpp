@@ -6,6 +6,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "common/words.h"
 #include "load/components.h"
 #include "load/missing_sizes.h"
 #include "map/geometry.h"
@@ -98,6 +99,7 @@ Vec3 read_place(const std::string& text, const Scene& scene, const Snapshot& sna
   std::istringstream words(text);
   std::vector<double> place;
   for (std::string word; std::getline(words, word, ',');) {
+    word = trimmed(word);
     if (unit_of_lengths(word).empty()) word += unit;
     place.push_back(read_map_length(word, scene, snapshot, what));
   }

@@ -50,6 +50,22 @@ TEST(MapUnits, AreThoseThatTheSettingsSay) {
   EXPECT_NEAR(static_cast<double>(test::at(map, 32, 24)) / in_code, 1e10 / 1e6, 1e-2);
 }
 
+TEST(MapUnits, OfAFormulaFollowFromItsFields) {
+  Scene scene = map_scene();
+  scene.map.quantity = "smoothing_length^2 * mass";
+  scene.map.length_unit = "kpc";
+  scene.map.mass_unit = "Msun";
+  EXPECT_EQ(map_of(scene, wide_particle().snapshot()).unit, "kpc^2 Msun");
+  scene.map.unit = "Msun pc^2";
+  const Map map = map_of(scene, wide_particle().snapshot());
+  EXPECT_NEAR(static_cast<double>(test::at(map, 32, 24)), 300e6, 1e3);
+  scene.map.quantity = "log10(mass)";
+  EXPECT_THAT(refusal(scene), HasSubstr("the map is in no_unit"));
+  scene.map.quantity = "smoothing_length + mass";
+  scene.map.unit = "";
+  EXPECT_THAT(refusal(scene), HasSubstr("smoothing_length in kpc beside mass in Msun"));
+}
+
 TEST(MapUnits, OfAFieldAreConverted) {
   Gas gas = wide_particle();
   auto snapshot = gas.snapshot();

@@ -68,7 +68,8 @@ def movie(
     Parameters
     ----------
     scene : Scene or path-like
-        With a ``[path]`` and a snapshot.
+        With a ``[path]`` and a snapshot; without a path it turns once around the snapshot, or goes
+        through those of its ``[time]``.
     path : path-like
         A film (.mp4, .mov, .mkv, .webm), which needs ffmpeg, or numbered images "frame_%04d.png".
     frames : str

@@ -63,7 +63,7 @@ class ParticleType:
         return self._canonical_name(field) in self.fields or field in self.derived
 
     def __getitem__(self, field: str) -> np.ndarray[Any, Any]:
-        """A field, stored or derived ("temperature"), in the snapshot's unit.
+        """A field, stored or derived ("temperature"), in the snapshot's unit; or a formula of fields.
 
         Returns
         -------
