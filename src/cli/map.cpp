@@ -273,6 +273,9 @@ void write_outputs(const Map& map, const SceneWithSnapshot& source,
 }  // namespace
 
 int run_map(const MapOptions& options, Console& console) {
+  if (!options.quantity.empty() && !options.field.empty()) {
+    throw UsageError("map: found --quantity and --field, expected one of them: they say the same");
+  }
   for (const std::filesystem::path& output : options.outputs)
     check_map_path(output);
   SceneWithSnapshot source =

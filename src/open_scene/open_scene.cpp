@@ -189,8 +189,9 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
     result.scene = read_scene_file(path, settings);
     check_components(result.scene, path);
     refuse_look(result.scene, path);
-    keep_types(keys, result.scene);
     result.snapshot = SnapshotSource().at(result.scene);
+    apply_colors(keys, settings, result);
+    keep_types(keys, result.scene);
     return result;
   }
   const Scene begun = read_scene_file(path, early);
@@ -201,6 +202,7 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
   suggested = with_wanted_types(suggested, settings, *result.snapshot, *begun.look);
   result.scene = scene_file::read_scene_file_on(suggested, path, settings);
   result.scene.look.reset();
+  apply_colors(keys, settings, result);
   return result;
 }
 
@@ -211,8 +213,9 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
   if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
     refuse_look(result.scene, path);
-    keep_types(keys, result.scene);
     result.snapshot = SnapshotSource().at(result.scene);
+    apply_colors(keys, settings, result);
+    keep_types(keys, result.scene);
   } else if (lower_ending(path) == ".toml" || (is_text_without_format(path) && has_keys(path))) {
     result = open_scene_file(path, settings, keys, ranks);
   } else {
@@ -225,6 +228,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
     result.scene =
         scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
     result.scene.look.reset();
+    apply_colors(keys, settings, result);
     name_by_types(*result.suggested, result.scene);
     const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
     if (!not_drawn.empty() && keys.types.empty()) result.notes.push_back(not_drawn);

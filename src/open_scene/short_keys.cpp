@@ -17,6 +17,7 @@
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/map.h"
+#include "splotchcl/scene_file.h"
 
 namespace splotchcl {
 namespace {
@@ -182,6 +183,14 @@ void color_by(const ShortKeys& keys, SceneWithSnapshot& opened) {
     color_by(keys.field, opened.scene.components.front());
 }
 
+// component.NAME.color.min=..., component.NAME.palette=...
+bool is_of_colors(const std::string& setting) {
+  const std::string key = trimmed(setting.substr(0, setting.find('=')));
+  const bool is_of_component = key.rfind("component.", 0) == 0;
+  return is_of_component &&
+         (key.find(".color") != std::string::npos || key.find(".palette") != std::string::npos);
+}
+
 double read_width(const ShortKeys& keys, const SceneWithSnapshot& opened) {
   const double width = read_map_length(keys.width, opened.scene, *opened.snapshot, "width");
   if (width > 0) return width;
@@ -226,11 +235,6 @@ void place_camera(const ShortKeys& keys, SceneWithSnapshot& opened) {
 }
 
 }  // namespace
-
-bool ShortKeys::are_given() const {
-  return !types.empty() || !where.empty() || !field.empty() || !palette.empty() ||
-         !center.empty() || !width.empty();
-}
 
 ShortKeys take_short_keys(std::vector<std::string>& settings) {
   ShortKeys keys;
@@ -289,13 +293,21 @@ void choose_types(const ShortKeys& keys, const Snapshot& snapshot, Look look, Sc
   suggested.camera = decide_camera(suggested, snapshot);
 }
 
-void apply(const ShortKeys& keys, SceneWithSnapshot& opened) {
-  for (const std::string& condition : keys.where)
-    keep_where(condition, opened);
+void apply_colors(const ShortKeys& keys, const std::vector<std::string>& settings,
+                  SceneWithSnapshot& opened) {
+  if (keys.field.empty() && keys.palette.empty()) return;
   if (!keys.field.empty()) color_by(keys, opened);
   for (Component& component : opened.scene.components) {
     if (!keys.palette.empty()) component.palette = keys.palette;
   }
+  std::vector<std::string> of_colors;
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(of_colors), is_of_colors);
+  opened.scene = apply_settings(opened.scene, of_colors);
+}
+
+void apply(const ShortKeys& keys, SceneWithSnapshot& opened) {
+  for (const std::string& condition : keys.where)
+    keep_where(condition, opened);
   if (!keys.center.empty() || !keys.width.empty()) place_camera(keys, opened);
 }
 

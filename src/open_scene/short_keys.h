@@ -14,8 +14,6 @@ struct ShortKeys {
   std::vector<std::string> where;  // conditions that all components are to fulfil
   std::string field, palette;      // of all components
   std::string center, width;       // of the camera
-
-  bool are_given() const;
 };
 
 // Takes the short keys out of the settings. Throws UsageError for types and conditions that are
@@ -28,7 +26,11 @@ void choose_types(const ShortKeys& keys, const Snapshot& snapshot, Look look, Sc
 // Of a scene whose components are given: only what of them draws the types.
 void keep_types(const ShortKeys& keys, Scene& scene);
 
-// All but the types.
+// The field and the palette; `settings` that say more of colors count before them.
+void apply_colors(const ShortKeys& keys, const std::vector<std::string>& settings,
+                  SceneWithSnapshot& opened);
+
+// Conditions, and where the camera looks.
 void apply(const ShortKeys& keys, SceneWithSnapshot& opened);
 
 }  // namespace splotchcl

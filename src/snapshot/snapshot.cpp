@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 
@@ -21,7 +22,11 @@ bool SnapshotInfo::is_whole() const {
                      [](const ParticleTypeInfo& type) { return type.particles_per_drawn == 1; });
 }
 
+// Arrays in memory may have them among other numbers.
 std::vector<std::uint64_t> Snapshot::read_ids(int type) const {
+  const ParticleTypeInfo* const particles = info().find_type(type);
+  const FieldInfo* const stored = particles == nullptr ? nullptr : find_field(*particles, "id");
+  if (stored != nullptr) return read_integers(type, stored->name);
   throw DataError(
       fmt::format("{}: its format ({}) has no ids for particles of type {}; expected ids, by which "
                   "particles of "

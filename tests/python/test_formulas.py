@@ -103,6 +103,21 @@ def test_formulas_are_what_numpy_says(numbered, formula, value):
     assert np.allclose(found, value(fields), rtol=1e-6, atol=1e-6)
 
 
+def test_arrays_have_identifiers_too(renderer):
+    random = np.random.default_rng(1)
+    particles = Particles().gas(
+        position=random.random((COUNT, 3)).astype(np.float32),
+        mass=np.ones(COUNT, np.float32),
+        smoothing_length=np.full(COUNT, 0.1, np.float32),
+        id=np.arange(COUNT),
+    )
+    drawn = splotchcl.column(particles, "counts", where=f"id < 100 || id / 2 >= {COUNT // 2 - 5}", size=(64, 64))
+    around = splotchcl.column(particles, "counts", size=(64, 64))
+    share = drawn.values.sum(dtype=float) / around.values.sum(dtype=float)
+    assert share == pytest.approx(110 / COUNT, rel=0.2)
+    assert any("id was copied" in note for note in drawn.notes)
+
+
 def test_large_identifiers_are_no_numbers_of_formulas(renderer, numbered):
     with pytest.raises(splotchcl.DataError, match=r"at most 2\^53"):
         selected(numbered[0], "id / 2 > mass")
