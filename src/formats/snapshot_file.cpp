@@ -60,6 +60,10 @@ std::string describe_other(const fs::path& path) {
   const std::string_view content = content_of(*file);
   if (const char* const familiar = find_familiar(content)) return familiar;
   const std::string_view start = content.substr(0, 4096);
+  if (start.find("<VOTABLE") != std::string_view::npos)
+    return "a VOTable; write it as ECSV or HDF5, as with astropy's Table.write";
+  if (start.find("\\begin{table") != std::string_view::npos)
+    return "a LaTeX table; write it as CSV or ECSV, as with astropy's Table.write";
   const bool is_text = std::all_of(start.begin(), start.end(), [](char c) {
     return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 32;
   });

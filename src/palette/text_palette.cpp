@@ -65,14 +65,17 @@ std::vector<Rgb> colors_of_letters(const std::vector<PaletteLine>& lines) {
 std::vector<Knot> knots_in(const std::vector<PaletteLine>& lines, std::size_t most,
                            const std::string& name) {
   std::vector<Knot> knots;
-  bool may_be_words = true;
+  std::optional<Knot> names;
   for (const PaletteLine& line : lines) {
     if (is_comment(line)) continue;
     Knot knot = {line, palette_words(line.text), {}};
     const bool are_words =
         std::none_of(knot.words.begin(), knot.words.end(),
                      [](std::string_view word) { return palette_number(word).has_value(); });
-    if (std::exchange(may_be_words, false) && are_words) continue;
+    if (are_words && knots.empty() && !names) {
+      names = std::move(knot);
+      continue;
+    }
     for (std::size_t i = 0; i < std::min(most, knot.words.size()); ++i) {
       const auto number = palette_number(knot.words[i]);
       if (!number || !std::isfinite(*number)) refuse_number(knot, i, name);
@@ -80,6 +83,7 @@ std::vector<Knot> knots_in(const std::vector<PaletteLine>& lines, std::size_t mo
     }
     knots.push_back(std::move(knot));
   }
+  if (knots.empty() && names) refuse_number(*names, 0, name);
   return knots;
 }
 

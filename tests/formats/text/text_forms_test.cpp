@@ -148,6 +148,13 @@ TEST_F(TextForm, TablesThatAreDescribedByteByByteAreRead) {
   EXPECT_TRUE(std::isnan(snapshot->read(0, "mass")[1]));
 }
 
+TEST_F(TextForm, TablesForOthersAreRefusedWithWhatToDo) {
+  EXPECT_THAT(refusal_of("<?xml version=\"1.0\"?>\n<VOTABLE version=\"1.4\"></VOTABLE>\n"),
+              HasSubstr("it is a VOTable; write it as ECSV"));
+  EXPECT_THAT(refusal_of("\\begin{table}\nx & y & z \\\\\nkpc & kpc & kpc \\\\\n1 & 2 & 3 \\\\\n"),
+              HasSubstr("it is a LaTeX table; write it as CSV"));
+}
+
 TEST_F(TextForm, NumbersOfColumnsInNamesAreNoPartOfThem) {
   for (const char* const header :
        {"#scale(0) x(1) y(2) z(3)", "# 1:scale 2:x 3:y 4:z", "# [1]=scale [2]=x [3]=y [4]=z",
