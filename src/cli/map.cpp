@@ -309,8 +309,7 @@ int run_map(const MapOptions& options, Console& console) {
   const Map map = inputs.unchanged_during(
       [&] { return draw_map(source.scene, *source.snapshot, draw, notes, progress); });
   inputs.check_in_place();
-  for (const std::string& note : notes)
-    console.note(note);
+  console.note_each_once(notes);
   write_outputs(map, source, options.outputs, console);
   console.done(fmt::format("{}: {} in {}, {}x{} pixels, {} particles",
                            options.outputs.front().string(), map.quantity, map.unit, map.width,

@@ -77,8 +77,7 @@ int run_publish(const PublishOptions& options, Console& console) {
   const std::filesystem::path path = page_path(options.output);
   check_page_path(path);
   const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
-  for (const std::string& note : source.notes)
-    console.note(note);
+  console.note_each_once(source.notes);
   check_outputs({{path, "--output"}},
                 [&] { return files_read(options.scene, source.scene, *source.snapshot); });
   const Scene scene = plain(source.scene);
@@ -89,8 +88,7 @@ int run_publish(const PublishOptions& options, Console& console) {
     console.progress(what, fraction);
   };
   const Frame frame = load_frame(scene, *source.snapshot, notes, progress);
-  for (const std::string& note : notes)
-    console.note(note);
+  console.note_each_once(notes);
   check_page(frame);
 
   console.status(fmt::format("merging {} particles", particle_count(frame)));

@@ -86,8 +86,7 @@ Frame read_frame(const SceneWithSnapshot& source, const RenderOptions& options,
   console.status("reading " + source.snapshot->info().files.front().filename().string());
   std::vector<std::string> notes = source.snapshot->info().notes;
   Frame frame = load_frame(source.scene, *source.snapshot, notes, progress);
-  for (const std::string& note : notes)
-    console.note(note);
+  console.note_each_once(notes);
   frame.crop = choose_crop(options.crop, frame.width, frame.height);
   return frame;
 }
@@ -151,8 +150,7 @@ SceneWithSnapshot open_checked(const RenderOptions& options,
   }
   const Rectangle wanted = options.crop.empty() ? Rectangle() : parse_crop(options.crop);
   SceneWithSnapshot source = open_scene(options.scene, settings_of(options), ranks);
-  for (const std::string& note : source.notes)
-    console.note(note);
+  console.note_each_once(source.notes);
   if (!writes) return source;
   const ImageSettings& picture = source.scene.image;
   std::vector<OutputFile> outputs;
@@ -253,8 +251,7 @@ int run_render(const RenderOptions& options, Console& console) {
   report.stats = drawn.stats;
   report.tree = drawn.tree;
   report.finish = drawn.finish;
-  for (const std::string& note : drawn.all_notes())
-    console.note(note);
+  console.note_each_once(drawn.all_notes());
   report.draw_seconds = drawing.seconds();
   report.snapshot = source.snapshot->info().files.front().string();
   // To give so much memory back, the device's and that of files, takes as long as to write a

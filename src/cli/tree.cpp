@@ -74,8 +74,7 @@ int run_tree(const TreeCommandOptions& options, Console& console) {
       console.progress(what, fraction);
     };
     const TreeSource source = tree_source(*snapshot, type, fields, notes, reading);
-    for (const std::string& note : notes)
-      console.note(note);
+    console.note_each_once(notes);
     TreeOptions of_tree;
     of_tree.least = options.least;
     trees.push_back(build_tree(source, of_tree, [&](double fraction) {
