@@ -54,6 +54,12 @@ const char* find_familiar(std::string_view content) {
   return is_tar ? "a tar archive; unpack it first" : nullptr;
 }
 
+bool are_letters(std::string_view content) {
+  return std::all_of(content.begin(), content.end(), [](char c) {
+    return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 32;
+  });
+}
+
 // What a file that is no snapshot is, where its bytes tell, and what to do.
 std::string describe_other(const fs::path& path) {
   const auto file = MappedFile::open(path);
@@ -64,10 +70,7 @@ std::string describe_other(const fs::path& path) {
     return "a VOTable; write it as ECSV or HDF5, as with astropy's Table.write";
   if (start.find("\\begin{table") != std::string_view::npos)
     return "a LaTeX table; write it as CSV or ECSV, as with astropy's Table.write";
-  const bool is_text = std::all_of(start.begin(), start.end(), [](char c) {
-    return c == '\n' || c == '\r' || c == '\t' || static_cast<unsigned char>(c) >= 32;
-  });
-  return is_text ? "text, but no table with three or more numbers in each line" : "";
+  return are_letters(start) ? "text, but no table with three or more numbers in each line" : "";
 }
 
 std::string first_bytes(const fs::path& path) {
@@ -101,6 +104,14 @@ const SnapshotFormat* find_format_of(const fs::path& path) {
                               path.string(), within->file.string()));
 }
 
+bool is_text(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored) || fs::file_size(path, ignored) == 0) return false;
+  const auto file = MappedFile::open(path);
+  const std::string_view content = content_of(*file);
+  return find_familiar(content) == nullptr && are_letters(content.substr(0, 4096));
+}
+
 // Where lines are to be skipped the file is a text table, whatever these lines look like.
 const SnapshotFormat* text_format_of(const fs::path& path, const SnapshotFormat* found) {
   const bool may_be_text = found == nullptr || found == &text_table_format();
@@ -112,9 +123,11 @@ const SnapshotFormat* text_format_of(const fs::path& path, const SnapshotFormat*
 std::unique_ptr<Snapshot> open_file(const fs::path& path, const SnapshotOptions& options) {
   const SnapshotFormat* format = find_format_of(path);
   if (options.skip_lines > 0) format = text_format_of(path, format);
+  // Who names columns knows of rows that nothing else tells from other text.
+  if (format == nullptr && !options.columns.empty() && is_text(path)) format = &text_table_format();
   if (format != nullptr) {
     auto snapshot = format->open(path, options);
-    if (!options.columns.empty() && !format->has_columns()) {
+    if (!options.columns.empty() && !format->has_columns(options.columns)) {
       throw UsageError(
           fmt::format("{}: read.columns is for tables, but this is {}, whose fields have "
                       "names; leave read.columns out",

@@ -42,7 +42,7 @@ class SnapshotFormat {
   }
 
   // Whether SnapshotOptions::columns means something for it.
-  virtual bool has_columns() const { return false; }
+  virtual bool has_columns(const std::vector<std::string>&) const { return false; }
 };
 
 const SnapshotFormat& gadget_binary_format();  // formats 1 and 2

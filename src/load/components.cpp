@@ -174,13 +174,15 @@ void check(const Component& component, const SortOrder& sort, const ComponentFie
   choose_palette(component);
 }
 
-// As the scene's own is. Names of columns are for tables: other files have names of their own.
+// As the scene's own is. Names of columns and lines to skip are for tables: other files have names
+// of their own.
 std::shared_ptr<const Snapshot> open_companion(const std::string& path, ReadSettings read) {
-  if (!read.columns.empty()) {
+  if (!read.columns.empty() || read.skip_lines > 0) {
     std::error_code ignored;
     const SnapshotFormat* const format =
         std::filesystem::is_regular_file(path, ignored) ? find_format(path) : nullptr;
-    if (format == nullptr || !format->has_columns()) read.columns.clear();
+    if (format == nullptr || !format->has_columns(read.columns)) read.columns.clear();
+    if (format != &text_table_format()) read.skip_lines = 0;
   }
   return open_snapshot_for(path, read);
 }

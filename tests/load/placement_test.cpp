@@ -177,12 +177,13 @@ TEST_F(OwnSnapshot, MayBeATableWhoseColumnsAreNamedOrNone) {
   Component table = gas(), planted = gas();
   table.name = "table";
   table.snapshot = (folder_ / "table.txt").string();
-  std::ofstream(table.snapshot) << "7 0 0 0\n8 1 1 1\n";
+  std::ofstream(table.snapshot) << "6 5 5 5\n7 0 0 0\n8 1 1 1\n";
   planted.snapshot = generated(1);
   Scene scene = scene_of({table, planted});
   for (Component& component : scene.components)
     component.size_fixed = 1;
   scene.read.columns = {"mass", "x", "y", "z"};
+  scene.read.skip_lines = 1;
   const Frame frame = load(scene, gas_row());
   EXPECT_EQ(frame.components[0].particles.weight[1], 8);
   EXPECT_GT(frame.components[1].particles.count, 2u);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
+
 #include "formats/snapshot_format.h"
+#include "formats/table_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
@@ -52,7 +55,12 @@ class Hdf5Formats : public SnapshotFormat {
     if (!group.empty() && !file.has(place)) return {};
     return file.groups(place);
   }
-  bool has_columns() const override { return true; }
+  // Names in their order are for tables alone.
+  bool has_columns(const std::vector<std::string>& columns) const override {
+    return std::all_of(columns.begin(), columns.end(), [](const std::string& column) {
+      return split_named_column(column).has_value();
+    });
+  }
   bool is_map(const std::filesystem::path& path) const override {
     try {
       return holds_map(Hdf5File(path));

@@ -396,7 +396,7 @@ class NumpyFormat : public SnapshotFormat {
       return false;
     }
   }
-  bool has_columns() const override { return true; }
+  bool has_columns(const std::vector<std::string>&) const override { return true; }
 };
 
 }  // namespace

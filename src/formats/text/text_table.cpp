@@ -188,7 +188,14 @@ std::vector<std::string> numbered_names(std::size_t columns) {
   return names;
 }
 
-[[noreturn]] void refuse_text(const std::filesystem::path& path, std::uint64_t skipped) {
+[[noreturn]] void refuse_text(const std::filesystem::path& path, std::uint64_t skipped,
+                              std::size_t columns) {
+  if (skipped == 0 && columns > 0) {
+    throw DataError(fmt::format(
+        "{}: found no row of {} columns with three numbers or more, expected such rows as "
+        "read.columns names; correct it, or leave out lines with read.skip_lines",
+        path.string(), columns));
+  }
   throw DataError(
       skipped > 0
           ? fmt::format(
@@ -210,7 +217,7 @@ class TextTableFormat : public SnapshotFormat {
     std::vector<std::string> names = has_new_names ? std::vector<std::string>() : options.columns;
     const auto skipped = static_cast<std::uint64_t>(std::max(options.skip_lines, 0));
     std::optional<TableLayout> layout = find_layout(*file, {skipped, names.size()});
-    if (!layout) refuse_text(path, skipped);
+    if (!layout) refuse_text(path, skipped, options.columns.size());
     SnapshotInfo info;
     info.format = fmt::format("text with {}", layout->format.name());
     info.files = {path};
@@ -224,7 +231,7 @@ class TextTableFormat : public SnapshotFormat {
     table = with_flat_positions(std::move(table), info.notes);
     return make_table_snapshot(std::move(table), std::move(info));
   }
-  bool has_columns() const override { return true; }
+  bool has_columns(const std::vector<std::string>&) const override { return true; }
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/words.h"
+#include "formats/text/table_header.h"
 #include "formats/text/table_layout.h"
 
 namespace splotchcl {
@@ -85,6 +86,14 @@ void read_text_line(std::string_view line, TableLayout& layout) {
   if (const auto time = parse_number(value_of_key(line, "Time"))) layout.time = *time;
 }
 
+// Whether the line below the number belongs to a table of another form: it names the columns, or is
+// a row of numbers like the next.
+bool is_of_other_table(std::string_view line, const std::vector<std::string_view>& cells) {
+  if (name_positions(names_of_columns(line, cells.size()))) return true;
+  const std::vector<std::string_view> words = split_cells(line, ' ');
+  return words.size() == cells.size() && is_row(words) && parse_cell(cells.front());
+}
+
 // One of the tables in the file; none where there is none at this place.
 std::optional<TableLayout> read_table(TextLines& lines) {
   const auto count = lines.next() ? count_in(lines.line()) : std::nullopt;
@@ -96,6 +105,7 @@ std::optional<TableLayout> read_table(TextLines& lines) {
   layout.cells = cells_of(lines, layout.format);
   layout.first_row = lines.start();
   layout.lines_before = lines.number() - 1;
+  if (is_of_other_table(text, layout.cells)) return std::nullopt;
   read_text_line(text, layout);
   const bool is_table =
       is_row(layout.cells) && !layout.names.empty() && layout.names.size() == layout.cells.size();

@@ -50,6 +50,23 @@ TEST_F(Xyz, ABoxThatLeansOrIsNotPeriodicIsNone) {
           .box_size);
 }
 
+TEST_F(Xyz, NamesBelowANumberAreThoseOfColumns) {
+  EXPECT_THAT(absolute_positions(*open("2\ny x z\n1 2 3\n4 5 6\n"), 0),
+              ElementsAre(2, 1, 3, 5, 4, 6));
+}
+
+TEST_F(Xyz, RowsBelowANumberAreNoText) {
+  write_bytes(path_, "2\n1 2 3\n4 5 6\n");
+  EXPECT_THAT(absolute_positions(*open_snapshot(path_, {{"z", "y", "x"}}), 0),
+              ElementsAre(3, 2, 1, 6, 5, 4));
+  write_bytes(path_, "no table\nat all\n");
+  EXPECT_THAT(
+      [&] {
+        open_snapshot(path_, {{"z", "y", "x"}});
+      },
+      ::testing::ThrowsMessage<DataError>(HasSubstr("found no row of 3 columns")));
+}
+
 TEST_F(Xyz, OfSeveralTablesTheLastIsRead) {
   const auto snapshot = open("1\nfirst\nH 1 2 3\n2\nsecond\nH 4 5 6\nH 7 8 9\n");
   EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(4, 5, 6, 7, 8, 9));
