@@ -102,6 +102,13 @@ Keys set_keys(const std::string& path, ParticleSet Component::*set) {
           [=](const Component& component) { return (component.*set).sphere_radius; },
           [=](Component& component, double value) { (component.*set).sphere_radius = value; },
           {meaning(".sphere.radius", "The sphere's radius."), "length", "not used"}),
+      key<Component, double>(
+          path + ".sphere.rim", number(more_than(0)),
+          [=](const Component& component) { return (component.*set).sphere_rim; },
+          [=](Component& component, double value) { (component.*set).sphere_rim = value; },
+          {leaves_out ? "Not for what is left out."
+                      : "Weights fall smoothly to 0 over so much within `sphere.radius`.",
+           "length", "not used"}),
   };
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/file_identity.h"
+#include "film/follow/find_followed.h"
 #include "load/passes.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
@@ -49,7 +50,8 @@ InputFiles film_inputs(const Scene& scene, const FilmPath& path) {
   inputs.add_snapshots(scene);
   for (int frame = 0; frame < path.frame_count(); ++frame) {
     Scene shown = path.scene_at(scene, frame);
-    shown.path = {};  // its frames are told one by one
+    shown.path = {};            // its frames are told one by one
+    shown.movie.audio.clear();  // no frame depends on it
     inputs.add_named_files(shown);
   }
   return inputs;
@@ -68,7 +70,9 @@ std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference,
       fmt::format("splotchcl {}, {}\n", SPLOTCHCL_VERSION, by_reference ? "reference" : "device");
   for (const std::string& input : lines_of(film_inputs(scene, path), marks))
     text += "input " + input + "\n";
+  const std::optional<MotionBlur> blur = scene.movie.motion_blur;
   scene.movie = {};
+  scene.movie.motion_blur = blur;
   scene.path = {};
   text += format_scene(scene);
   for (int frame = 0; frame < path.frame_count(); ++frame)
@@ -107,7 +111,7 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
-  path_.emplace(scene_, notes_);
+  path_.emplace(scene_, notes_, find_followed);
   path_->check(scene_);
   watch_files();
   check_moments();

@@ -48,6 +48,9 @@ class FilmScene {
   const Scene& scene() const { return scene_; }
   const FilmPath& path() const { return *path_; }
   Scene scene_at(int frame) const { return path_->scene_at(scene_, frame); }
+  std::vector<Scene> blurred_scenes(int frame) const {
+    return path_->blurred_scenes(scene_, frame);
+  }
   std::shared_ptr<const Snapshot> snapshot_at(const Scene& scene);
   OtherScenes& other_scenes() { return other_scenes_; }
   // Throws DataError where a file that frames are drawn from is no longer what it was when the

@@ -1,0 +1,166 @@
+// Films that follow real matter. Where it truly is, is measured here in a way of its own: by the
+// medians of the same particles.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "film/follow/find_followed.h"
+#include "film/frames/film_scene.h"
+#include "paths.h"
+#include "splotchcl/camera.h"
+#include "splotchcl/error.h"
+#include "temporary_folder.h"
+
+namespace splotchcl {
+namespace {
+
+using boost::qvm::mag;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+// By type and id.
+using Identities = std::set<std::pair<int, std::uint64_t>>;
+
+Vec3 nearest(Vec3 offset, double box) {
+  for (double& axis : offset.a)
+    axis -= box > 0 ? box * std::round(axis / box) : 0;
+  return offset;
+}
+
+struct Placed {
+  std::pair<int, std::uint64_t> identity;
+  Vec3 place;
+};
+
+std::vector<Placed> particles_of(const Snapshot& snapshot) {
+  std::vector<Placed> all;
+  for (const ParticleTypeInfo& type : snapshot.info().types) {
+    const Column position = snapshot.read(type.type, "position");
+    const auto ids = snapshot.read_ids(type.type);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const Vec3 place = {{position[3 * i], position[3 * i + 1], position[3 * i + 2]}};
+      all.push_back({{type.type, ids[i]}, snapshot.position_origin() + place});
+    }
+  }
+  return all;
+}
+
+// The nearest fifth of those within a radius.
+Identities innermost(const Snapshot& snapshot, const Vec3& center, double radius, double box) {
+  std::vector<std::pair<double, std::pair<int, std::uint64_t>>> within;
+  for (const Placed& particle : particles_of(snapshot)) {
+    const double distance = mag(nearest(particle.place - center, box));
+    if (distance <= radius) within.emplace_back(distance, particle.identity);
+  }
+  std::sort(within.begin(), within.end());
+  Identities chosen;
+  for (std::size_t i = 0; i < within.size() / 5; ++i)
+    chosen.insert(within[i].second);
+  return chosen;
+}
+
+// From `from` to the medians of these particles.
+Vec3 to_medians(const Snapshot& snapshot, const Identities& wanted, const Vec3& from, double box) {
+  std::vector<double> axes[3];
+  for (const Placed& particle : particles_of(snapshot)) {
+    if (wanted.count(particle.identity) == 0) continue;
+    const Vec3 offset = nearest(particle.place - from, box);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      axes[axis].push_back(offset.a[axis]);
+  }
+  Vec3 median;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::sort(axes[axis].begin(), axes[axis].end());
+    median.a[axis] = axes[axis].at(axes[axis].size() / 2);
+  }
+  return median;
+}
+
+// Of the picture's shorter side, at the look-at point.
+double part_of_picture(const Scene& scene, const Vec3& offset) {
+  const CameraFrame camera =
+      make_camera_frame(*scene.camera, scene.image.width, scene.image.height);
+  return mag(offset) * camera.pixels_per_length / std::min(scene.image.width, scene.image.height);
+}
+
+struct FollowedFilm {
+  std::string snapshots;  // a pattern
+  double first = 0, last = 0;
+  double box = 0;
+  int chosen_in_frame = 0;
+  std::string follow;
+  double radius = 0;
+};
+
+constexpr int film_frames = 13;
+
+void write_scene(const std::filesystem::path& file, const FollowedFilm& film) {
+  std::ofstream(file) << "look = 'press'\n[image]\nsize = [160, 120]\n[time]\nsnapshots = '"
+                      << film.snapshots << "'\nindex = " << film.last << "\n[path.follow]\n"
+                      << film.follow << "\nsphere.radius = " << film.radius
+                      << "\n[[path.keyframes]]\nframe = 0\ntime.index = " << film.first
+                      << "\n[[path.keyframes]]\nframe = " << film_frames - 1
+                      << "\ntime.index = " << film.last << "\n";
+}
+
+// At every frame, also between snapshots.
+double farthest_from_truth(const FollowedFilm& film) {
+  const test::TemporaryFolder folder;
+  write_scene(folder / "film.toml", film);
+  FilmScene scenes(folder / "film.toml", {});
+  const Scene chosen = scenes.scene_at(film.chosen_in_frame);
+  const Identities followed =
+      innermost(*scenes.snapshot_at(chosen), chosen.camera->look_at, film.radius, film.box);
+  EXPECT_GT(followed.size(), 100U);
+  double farthest = 0;
+  for (int frame = 0; frame < film_frames; ++frame) {
+    const Scene scene = scenes.scene_at(frame);
+    const Vec3 missed =
+        to_medians(*scenes.snapshot_at(scene), followed, scene.camera->look_at, film.box);
+    farthest = std::max(farthest, part_of_picture(scene, missed));
+    if (std::getenv("SHOW")) printf("%d %g %g\n", frame, scene.time.index, part_of_picture(scene, missed));
+  }
+  return farthest;
+}
+
+class RealMatter : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(test::data_folder() / "lcdm"))
+      GTEST_SKIP() << "no test data in " << test::data_folder();
+  }
+};
+
+TEST_F(RealMatter, KeepsTheDensestHaloOfAUniverseInTheMiddle) {
+  FollowedFilm film;
+  film.snapshots = (test::data_folder() / "lcdm/fmt2_snapshot_%03d").string();
+  film.first = 2;
+  film.last = 6;
+  film.box = 50000;
+  film.chosen_in_frame = film_frames - 1;
+  film.follow = "sphere.center = 'densest'";
+  film.radius = 2000;
+  EXPECT_LT(farthest_from_truth(film), 0.02);
+}
+
+TEST_F(RealMatter, KeepsAGalaxyOfACollisionInTheMiddle) {
+  FollowedFilm film;
+  film.snapshots = (test::data_folder() / "galaxy_collision/snapshot_%03d.hdf5").string();
+  film.first = 0;
+  film.last = 10;
+  film.follow = "sphere.center = 'densest'\nsnapshot = 0";
+  film.radius = 15;
+  EXPECT_LT(farthest_from_truth(film), 0.02);
+}
+
+}  // namespace
+}  // namespace splotchcl
