@@ -290,7 +290,9 @@ Frame FrameLoader::load(const DecidedScene& decided) {
   frame.spread = snapshot_.spread();
   auto numbers = decided.components.begin();
   for (Part& part : parts_) {
-    DrawnComponent drawn = read(part, numbers->weight, decided.scene.camera->look_at);
+    const bool is_dark = part.reader.component().brightness == 0;  // neither shines nor absorbs
+    DrawnComponent drawn = is_dark ? part.reader.dark(numbers->weight)
+                                   : read(part, numbers->weight, decided.scene.camera->look_at);
     if (const auto note = tell_dark_color(part.reader.component(), drawn.palette))
       part.reader.fields().note(*note);
     drawn.color = numbers->color;

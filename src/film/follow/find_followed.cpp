@@ -41,13 +41,13 @@ struct Search {
   double chosen = 0;            // the snapshot's in which the particles are chosen
 };
 
-// Between snapshots particles move as the film draws them: on straight lines there is nothing to be
-// looked for, and on cubics so many places tell enough.
-constexpr int places_of_cubic = 4;
+// Between snapshots particles move as the film draws them, each on a way of its own: their median
+// is looked for at so many places.
+constexpr int places_between = 4;
 
 void add_between(double from, double to, Interpolation interpolation,
                  std::vector<double>& indices) {
-  const int places = interpolation == Interpolation::hermite ? places_of_cubic : 1;
+  const int places = interpolation == Interpolation::none ? 1 : places_between;
   for (int i = 0; i < places; ++i)
     indices.push_back(from + (to - from) * i / places);
 }

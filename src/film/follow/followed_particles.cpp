@@ -83,7 +83,7 @@ Candidates candidates(const Scene& scene, const Snapshot& snapshot, const Partic
       snapshot.info().files.front().string()));
 }
 
-// A halo's center is that of its bulk, and its radius holds nearly all.
+// A halo's center is the median of its particles, and its radius holds nearly all.
 void measure_halo(const Candidates& members, FollowedParticles& followed) {
   constexpr double nearly_all = 0.9;
   followed.center = middle_of(members.cloud, members.cloud.points.front());

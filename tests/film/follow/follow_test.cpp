@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "film/follow/find_followed.h"
+#include "film/follow/followed_particles.h"
 #include "film/frames/film_scene.h"
 #include "paths.h"
 #include "splotchcl/camera.h"
@@ -54,17 +55,12 @@ std::vector<Placed> particles_of(const Snapshot& snapshot) {
   return all;
 }
 
-// The nearest fifth of those within a radius.
-Identities innermost(const Snapshot& snapshot, const Vec3& center, double radius, double box) {
-  std::vector<std::pair<double, std::pair<int, std::uint64_t>>> within;
-  for (const Placed& particle : particles_of(snapshot)) {
-    const double distance = mag(nearest(particle.place - center, box));
-    if (distance <= radius) within.emplace_back(distance, particle.identity);
-  }
-  std::sort(within.begin(), within.end());
+Identities chosen_in(const Scene& scene, const Snapshot& snapshot) {
   Identities chosen;
-  for (std::size_t i = 0; i < within.size() / 5; ++i)
-    chosen.insert(within[i].second);
+  for (const auto& [type, ids] : choose_followed(scene, snapshot, true).ids) {
+    for (const std::uint64_t id : ids)
+      chosen.insert({type, id});
+  }
   return chosen;
 }
 
@@ -118,8 +114,7 @@ double farthest_from_truth(const FollowedFilm& film) {
   write_scene(folder / "film.toml", film);
   FilmScene scenes(folder / "film.toml", {});
   const Scene chosen = scenes.scene_at(film.chosen_in_frame);
-  const Identities followed =
-      innermost(*scenes.snapshot_at(chosen), chosen.camera->look_at, film.radius, film.box);
+  const Identities followed = chosen_in(chosen, *scenes.snapshot_at(chosen));
   EXPECT_GT(followed.size(), 100U);
   double farthest = 0;
   for (int frame = 0; frame < film_frames; ++frame) {
@@ -127,7 +122,6 @@ double farthest_from_truth(const FollowedFilm& film) {
     const Vec3 missed =
         to_medians(*scenes.snapshot_at(scene), followed, scene.camera->look_at, film.box);
     farthest = std::max(farthest, part_of_picture(scene, missed));
-    if (std::getenv("SHOW")) printf("%d %g %g\n", frame, scene.time.index, part_of_picture(scene, missed));
   }
   return farthest;
 }
