@@ -15,10 +15,14 @@ namespace splotchcl {
 
 // A film, as the command `splotchcl movie` makes it (docs/movies.md).
 struct FilmOptions {
-  std::filesystem::path scene;   // as for open_scene; its [path] and [movie] say what the film is
-  std::filesystem::path output;  // a film (.mp4, .mov, .mkv, .webm), or frame_%04d.png
+  // As for open_scene; its [path] and [movie] say what the film is. That of a snapshot or of a
+  // sequence, if nothing says, is an orbit, through all its time.
+  std::filesystem::path scene;
+  std::filesystem::path output;       // a film (.mp4, .mov, .mkv, .webm), or frame_%04d.png
   std::vector<std::string> settings;  // "key=value" strings of scene keys
-  std::string device;                 // as in FrameDrawerOptions
+  // From all that the scene shows to its "densest" place, or to a halo: "halo=N". Empty: none.
+  std::string dive;
+  std::string device;  // as in FrameDrawerOptions
   bool by_reference = false;
   std::uint64_t memory_bytes = 0;  // as in RendererOptions
   TreeUse tree = TreeUse::automatic;

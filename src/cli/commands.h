@@ -79,6 +79,8 @@ struct MovieOptions : DrawOptions {
   std::optional<std::filesystem::path> output;  // a film, or numbered images
   std::string frames;                           // FIRST:END:STEP
   std::string part;                             // K/N
+  std::string dive;                             // densest, or halo=N
+  std::optional<std::string> audio;
   bool join = false;
 };
 int run_movie(const MovieOptions& options, Console& console);

@@ -14,6 +14,7 @@
 
 #include "common/file_identity.h"
 #include "film/follow/find_followed.h"
+#include "film/frames/suggest_film.h"
 #include "load/passes.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
@@ -99,7 +100,7 @@ Camera upright(Camera camera, const ImageSettings& image) {
 }  // namespace
 
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
-                     const std::shared_ptr<Communicator>& ranks)
+                     const std::shared_ptr<Communicator>& ranks, const std::string& dive)
     : ranks_(ranks) {
   WatchedFiles opening;  // a scene file may change later on: it is read only once
   opening.add(path);
@@ -111,6 +112,8 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
+  // A scene file says itself what its film is.
+  if (opened.suggested || !dive.empty()) suggest_film(dive, *snapshot_at(scene_), scene_);
   path_.emplace(scene_, notes_, find_followed);
   path_->check(scene_);
   watch_files();
