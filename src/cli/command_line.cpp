@@ -211,6 +211,12 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
                   wrapped("Go from all that is shown to the densest place, or to the halo of a "
                           "catalog: densest or halo=N"))
       ->type_name("WHERE");
+  sub->add_option("--dome", options->dome,
+                  wrapped("A master for planetariums, of so many pixels: 180 degrees, what the "
+                          "camera looks at in front, at the bottom, 15 degrees above the rim, 30 "
+                          "frames per second"))
+      ->check(CLI::Range(64, 8192))
+      ->type_name("SIZE");
   sub->add_option("--audio", options->audio, wrapped("Lay this file's sound under the film"))
       ->type_name("FILE");
   sub->add_flag("--join", options->join,

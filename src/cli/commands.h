@@ -81,6 +81,7 @@ struct MovieOptions : DrawOptions {
   std::string part;                             // K/N
   std::string dive;                             // densest, or halo=N
   std::optional<std::string> audio;
+  std::optional<int> dome;  // its diameter in pixels
   bool join = false;
 };
 int run_movie(const MovieOptions& options, Console& console);

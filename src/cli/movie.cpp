@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <iostream>
@@ -108,9 +109,26 @@ class Watch {
   std::vector<FilmFrameStats> drawn_;
 };
 
+// A master of planetariums, but for what the user says.
+void add_dome(int size, std::vector<std::string>& settings) {
+  const std::vector<std::string> own = settings;
+  const auto add = [&](const std::string& key, const std::string& value) {
+    const bool is_given = std::any_of(own.begin(), own.end(), [&key](const std::string& s) {
+      return s.rfind(key + "=", 0) == 0;
+    });
+    if (!is_given) settings.push_back(key + "=" + value);
+  };
+  add("image.size", fmt::format("{}x{}", size, size));
+  add("camera.projection", "fisheye");
+  add("camera.field_of_view", "180");
+  add("camera.dome_tilt", "15");
+  add("movie.frames_per_second", "30");
+}
+
 std::vector<std::string> film_settings(const MovieOptions& options) {
   std::vector<std::string> settings = settings_of(options);
   if (options.audio) settings.push_back("movie.audio=" + *options.audio);
+  if (options.dome) add_dome(*options.dome, settings);
   return settings;
 }
 

@@ -420,7 +420,8 @@ Key blur_key(const std::string& name, const ValueType<V>& type, V MotionBlur::*m
         return movie.motion_blur ? std::optional<V>((*movie.motion_blur).*member) : std::nullopt;
       },
       [member](MovieSettings& movie, const V& value) {
-        (movie.motion_blur ? *movie.motion_blur : movie.motion_blur.emplace()).*member = value;
+        if (!movie.motion_blur) movie.motion_blur.emplace();
+        (*movie.motion_blur).*member = value;
       },
       text);
 }

@@ -1,5 +1,10 @@
 #include "film/frames/film_drawer.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "finish/tone.h"
@@ -81,6 +86,21 @@ DrawnFrame FilmDrawer::draw_mean(int frame, const Drawings& drawings, OtherScene
   return std::move(*mean);
 }
 
+namespace {
+
+// "HH:MM:SS:FF" of whole frames in a second, as editors count them; none where a second has more
+// than two digits count, or less than one.
+std::string timecode(int frame, double frames_per_second) {
+  const auto rate = static_cast<int>(std::lround(frames_per_second));
+  constexpr int most = 99, hours_of_day = 24;
+  if (rate < 1 || rate > most) return {};
+  const int seconds = frame / rate;
+  return fmt::format("{:02}:{:02}:{:02}:{:02}", seconds / 3600 % hours_of_day, seconds / 60 % 60,
+                     seconds % 60, frame % rate);
+}
+
+}  // namespace
+
 RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Drawings& drawings,
                              OtherScenes& other_scenes, const std::filesystem::path& output,
                              const std::function<void()>& before_writing) {
@@ -90,11 +110,13 @@ RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Drawings& draw
   tell_of_bad_particles(drawn);
   finish();
   if (output.empty()) return drawn.stats;
-  writing_ = in_background(
-      [output, pictures = std::move(drawn.pictures),
-       options = image_file_options(scene, {{"splotchcl:frame", std::to_string(frame)}})] {
-        write_pictures(output, pictures, options);
-      });
+  std::map<std::string, std::string> metadata = {{"splotchcl:frame", std::to_string(frame)}};
+  const std::string code = timecode(frame, scene.movie.frames_per_second);
+  if (!code.empty()) metadata["splotchcl:timecode"] = code;
+  writing_ = in_background([output, pictures = std::move(drawn.pictures),
+                            options = image_file_options(scene, std::move(metadata))] {
+    write_pictures(output, pictures, options);
+  });
   return drawn.stats;
 }
 

@@ -64,7 +64,7 @@ void CameraCourse::begin_to_follow() {
   const double wanted = start_.path.follow->size * way_->radius();
   camera.look_at = Vec3{{0, 0, 0}};
   camera.position = wanted / shown * towards_camera;
-  if (!(mag(way_->up(index_at_(0))) > 0)) return;
+  if (start_.path.follow->up == Follow::Up::camera) return;
   Vec3 up = normalized(camera.sky);
   Turn turn = identity_quat<double>();
   for (int frame = 0; frame < frames_; ++frame) {

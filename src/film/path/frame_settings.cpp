@@ -103,8 +103,9 @@ void FrameSettings::limit_turns(const Scene& scene, std::vector<std::string>& no
   if (slow.empty()) {
     throw UsageError(fmt::format(
         "path.max_turn_rate: found a view that turns by {:.3g} degrees per second, and all along "
-        "the film faster than the {:g} that it may, expected more frames, about {:.0f}",
-        found, *scene.path.max_turn_rate, std::ceil(frames_ * largest / most)));
+        "the film faster than the {:g} that it may, expected more frames, or a path that turns "
+        "less",
+        found, *scene.path.max_turn_rate));
   }
   double farthest = 0;
   for (std::size_t i = 0; i < views.size(); ++i)

@@ -43,8 +43,8 @@ std::vector<Vec3> averaged(const std::vector<Vec3>& directions, int around) {
 
 std::vector<Vec3> with_slow_turns(const std::vector<Vec3>& directions, double most_radians) {
   constexpr double rounding = 1e-9;
-  const int count = static_cast<int>(directions.size());
-  for (int around = 0; around < count; around = around + 1 + around / 8) {
+  const int most_around = static_cast<int>(directions.size()) / 4;
+  for (int around = 0; around <= most_around; around = around + 1 + around / 8) {
     std::vector<Vec3> slow = averaged(directions, around);
     if (!slow.empty() && largest_turn(slow) <= most_radians * (1 + rounding)) return slow;
   }

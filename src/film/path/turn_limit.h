@@ -8,8 +8,7 @@ namespace splotchcl {
 
 // Directions of length 1 that never turn by more than `most_radians` from one to the next: each is
 // the mean of those around it, of as few as it takes, so that turns begin earlier and end later.
-// The mean of all directions between two ends leaves those ends: what is given in every direction
-// only at another rate, as a full turn, cannot be slowed down, and comes out empty.
+// Empty where half of all would not do: what turns all along cannot turn more slowly.
 std::vector<Vec3> with_slow_turns(const std::vector<Vec3>& directions, double most_radians);
 
 // The largest turn from one direction to the next, in radians.

@@ -19,6 +19,8 @@
 #include "paths.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/error.h"
+#include "splotchcl/generate.h"
+#include "splotchcl/scene_file.h"
 #include "temporary_folder.h"
 
 namespace splotchcl {
@@ -154,6 +156,103 @@ TEST_F(RealMatter, KeepsAGalaxyOfACollisionInTheMiddle) {
   film.follow = "sphere.center = 'densest'\nsnapshot = 0";
   film.radius = 15;
   EXPECT_LT(farthest_from_truth(film), 0.02);
+}
+
+// A ball of particles, the first of a box that others fill evenly.
+void write_ball(const std::filesystem::path& file, double x) {
+  GeneratedSnapshot snapshot;
+  snapshot.box_size = 100;
+  const auto add = [&](const Vec3& place) {
+    Vec3 inside = place;
+    for (double& axis : inside.a)
+      axis -= 100 * std::floor(axis / 100);
+    snapshot.gas.add(inside, {{0, 0, 0}});
+    snapshot.gas.smoothing_length.push_back(1);
+    snapshot.gas.density.push_back(1);
+    snapshot.gas.internal_energy.push_back(1);
+  };
+  for (int i = 0; i < 343; ++i)
+    add({{x + i % 7 - 3, 50.0 + i / 7 % 7 - 3, 50.0 + i / 49 - 3}});
+  for (int i = 0; i < 512; ++i)
+    add({{6 + 12.5 * (i % 8), 6 + 12.5 * (i / 8 % 8), 6 + 12.5 * (i / 64)}});
+  snapshot.gas.mass = 1;
+  write_gadget2(file, snapshot);
+}
+
+TEST(FollowedBall, GoesOnBeyondTheBoxesFaces) {
+  const test::TemporaryFolder folder;
+  write_ball(folder / "snapshot_0", 95);
+  write_ball(folder / "snapshot_1", 105);
+  write_ball(folder / "snapshot_2", 115);
+  FollowedFilm film;
+  film.snapshots = "snapshot_%d";
+  film.last = 2;
+  film.follow = "sphere.center = [115, 50, 50]";
+  film.radius = 6;
+  write_scene(folder / "film.toml", film);
+  const FilmScene scenes(folder / "film.toml", {});
+  const Vec3 first = scenes.scene_at(0).camera->look_at;
+  for (int frame = 0; frame < film_frames; ++frame) {
+    const Vec3 way = scenes.scene_at(frame).camera->look_at - first;
+    EXPECT_NEAR(way.a[0], 20.0 * frame / (film_frames - 1), 0.2) << frame;
+    EXPECT_NEAR(mag(way) - std::abs(way.a[0]), 0, 0.2) << frame;
+  }
+}
+
+TEST(FollowedBall, IsFoundAsTheDensestPlaceWithAFittingRadius) {
+  const test::TemporaryFolder folder;
+  write_ball(folder / "snapshot_0", 98);
+  FilmScene film(folder / "snapshot_0", {"movie.frames=10", "image.size=[64, 64]"}, nullptr,
+                 "densest");
+  const Scene end = film.scene_at(9);
+  EXPECT_TRUE(end.periodic.wrap);
+  EXPECT_NEAR(mag(nearest(end.camera->look_at - Vec3{{98, 50, 50}}, 100)), 0, 1);
+  const CameraFrame camera = make_camera_frame(*end.camera, 64, 64);
+  EXPECT_GT(64 / camera.pixels_per_length, 8);
+  EXPECT_LT(64 / camera.pixels_per_length, 40);
+  // Nothing comes in at the faces of the box while the camera goes there.
+  EXPECT_NEAR(mag(film.scene_at(0).camera->look_at - end.camera->look_at), 0, 1e-6);
+}
+
+TEST(FollowedBall, IsRefusedWhereThereIsNone) {
+  const test::TemporaryFolder folder;
+  write_ball(folder / "snapshot_0", 50);
+  const std::vector<std::string> far = {"movie.frames=2", "path.follow.sphere.center=[1, 1, 1]",
+                                        "path.follow.sphere.radius=0.5"};
+  EXPECT_THAT([&] { FilmScene(folder / "snapshot_0", far); },
+              ThrowsMessage<UsageError>(HasSubstr("found no particle")));
+  EXPECT_THAT([&] { FilmScene(folder / "snapshot_0", {}, nullptr, "sparsest"); },
+              ThrowsMessage<UsageError>(HasSubstr("--dive")));
+}
+
+TEST(SuggestedFilm, OfASnapshotIsAnOrbitThatEasesInAndOut) {
+  const test::TemporaryFolder folder;
+  write_ball(folder / "snapshot_0", 50);
+  const FilmScene film(folder / "snapshot_0", {});
+  ASSERT_TRUE(film.scene().path.orbit.has_value());
+  EXPECT_TRUE(film.scene().path.orbit->is_eased);
+  EXPECT_EQ(film.path().frame_count(), 250);
+}
+
+TEST(SuggestedFilm, OfASequenceGoesThroughItsTime) {
+  const test::TemporaryFolder folder;
+  for (int i = 3; i < 6; ++i)
+    write_ball(folder / ("snapshot_" + std::to_string(i)), 50 + i);
+  const FilmScene film(folder / "snapshot_%d", {"movie.frames=5"});
+  EXPECT_EQ(film.scene_at(0).time.index, 3);
+  EXPECT_EQ(film.scene_at(2).time.index, 4);
+  EXPECT_EQ(film.scene_at(4).time.index, 5);
+}
+
+TEST(SuggestedFilm, CanBeWrittenAsASceneAndIsTheSame) {
+  const test::TemporaryFolder folder;
+  for (int i = 0; i < 2; ++i)
+    write_ball(folder / ("snapshot_" + std::to_string(i)), 50 + i);
+  const FilmScene film(folder / "snapshot_%d", {"movie.frames=5"}, nullptr, "densest");
+  std::ofstream(folder / "again.toml") << format_scene(film.scene());
+  const FilmScene again(folder / "again.toml", {});
+  for (int frame = 0; frame < 5; ++frame)
+    EXPECT_EQ(format_scene(again.scene_at(frame)), format_scene(film.scene_at(frame))) << frame;
 }
 
 }  // namespace
