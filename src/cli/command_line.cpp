@@ -207,9 +207,13 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
          wrapped(
              "Draw the K-th of N shares of the frames; the process that ends last makes the film"))
       ->type_name("K/N");
-  sub->add_option("--dive", options->dive,
-                  wrapped("Go from all that is shown to the densest place, or to the halo of a "
-                          "catalog: densest or halo=N"))
+  CLI::Option* const dive =
+      sub->add_option("--dive", options->dive,
+                      wrapped("Go from all that is shown to the densest place, or to the halo of a "
+                              "catalog: densest or halo=N"))
+          ->type_name("WHERE");
+  sub->add_option("--follow", options->follow, wrapped("Orbit around it, wherever it goes"))
+      ->excludes(dive)
       ->type_name("WHERE");
   sub->add_option("--dome", options->dome,
                   wrapped("A master for planetariums, of so many pixels: 180 degrees, what the "

@@ -132,6 +132,11 @@ std::vector<std::string> film_settings(const MovieOptions& options) {
   return settings;
 }
 
+FilmTarget target_of(const MovieOptions& options) {
+  if (!options.dive.empty()) return {options.dive, true};
+  return {options.follow, false};
+}
+
 FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Communicator>& ranks) {
   FilmOptions film;
   film.ranks = ranks;
@@ -139,7 +144,7 @@ FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Comm
   film.stats = options.stats;
   film.output = *options.output;
   film.settings = film_settings(options);
-  film.dive = options.dive;
+  film.target = target_of(options);
   film.device = options.device;
   film.by_reference = options.reference;
   film.memory_bytes = options.memory_bytes;
@@ -153,7 +158,7 @@ FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Comm
 
 // By the first of the frames that are asked for.
 void explain_film(const MovieOptions& options, Console& console) {
-  FilmScene film(options.scene, film_settings(options), nullptr, options.dive);
+  FilmScene film(options.scene, film_settings(options), nullptr, target_of(options));
   const std::vector<int> frames =
       select_part(options.part, select_frames(options.frames, film.path().frame_count()));
   if (frames.empty()) throw UsageError("--part: has no frames to explain");

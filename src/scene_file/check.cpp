@@ -178,10 +178,6 @@ void check_field_map(const FieldMap& map, const std::string& label, const Origin
 void check_rim(const ParticleSet& set, const std::string& label, const Origins& origins) {
   if (!set.sphere_rim) return;
   const std::string rim = label + ".sphere.rim";
-  if (label.find(".exclude") != std::string::npos) {
-    refuse(origins.at(rim), rim, write_number(*set.sphere_rim),
-           "none there: what is left out has no weight that could fall; give select.sphere a rim");
-  }
   if (!set.sphere_radius)
     refuse(origins.at(rim), rim, "it alone", label + ".sphere.radius as well");
   if (*set.sphere_rim <= *set.sphere_radius) return;

@@ -102,14 +102,15 @@ Keys set_keys(const std::string& path, ParticleSet Component::*set) {
           [=](const Component& component) { return (component.*set).sphere_radius; },
           [=](Component& component, double value) { (component.*set).sphere_radius = value; },
           {meaning(".sphere.radius", "The sphere's radius."), "length", "not used"}),
-      key<Component, double>(
-          path + ".sphere.rim", number(more_than(0)),
-          [=](const Component& component) { return (component.*set).sphere_rim; },
-          [=](Component& component, double value) { (component.*set).sphere_rim = value; },
-          {leaves_out ? "Not for what is left out."
-                      : "Weights fall smoothly to 0 over so much within `sphere.radius`.",
-           "length", "not used"}),
   };
+}
+
+Key rim_key() {
+  return key<Component, double>(
+      "component.select.sphere.rim", number(more_than(0)),
+      [](const Component& component) { return component.select.sphere_rim; },
+      [](Component& component, double value) { component.select.sphere_rim = value; },
+      {"Weights fall smoothly to 0 over so much within `sphere.radius`.", "length", "not used"});
 }
 
 bool equal(const Vec3& a, const Vec3& b) {
@@ -179,6 +180,7 @@ Keys particle_keys() {
           {"The particle types drawn as this component."}),
   };
   append(keys, set_keys("component.select", &Component::select));
+  keys.push_back(rim_key());
   append(keys, set_keys("component.exclude", &Component::exclude));
   append(keys, placement_keys());
   return keys;

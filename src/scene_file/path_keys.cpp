@@ -134,8 +134,7 @@ std::string write_points(const std::vector<Vec3>& points) {
 ValueType<std::vector<Keyframe>> keyframes() {
   return {
       "tables in increasing order of frame, each with frame, a number >= 0, and one or more keys "
-      "of a scene; ease, true or false, and dwell, a number of frames before the next keyframe, "
-      "may stand beside them",
+      "of a scene; also ease, true or false, and dwell, a number >= 0",
       read_keyframes, write_keyframes};
 }
 
@@ -210,9 +209,7 @@ Keys orbit_keys() {
       orbit_key("path.orbit.radius", number(more_than(0)), &Orbit::radius,
                 {"The camera's distance from the center.", "length", "as the camera stands"}),
       orbit_key("path.orbit.ease", ease(), &Orbit::is_eased,
-                {"`both`: it speeds up in the beginning, and has turned by all of `degrees` with "
-                 "the last frame.",
-                 "", "`\"none\"`"}),
+                {"`both`: it starts and ends slowly.", "", "`\"none\"`"}),
   };
 }
 
@@ -234,9 +231,9 @@ ValueType<std::optional<Vec3>> point_or(const std::string& word) {
   using Place = std::optional<Vec3>;
   return {"[x, y, z], each a finite number, or \"" + word + "\"",
           [word](const toml::node& node) -> std::optional<Place> {
-            if (node.value_exact<std::string>() == word) return Place();
+            if (node.value_exact<std::string>() == word) return std::optional<Place>(std::in_place);
             const std::optional<Vec3> point = vector().read(node);
-            return point ? std::optional(Place(point)) : std::nullopt;
+            return point ? std::optional<Place>(std::in_place, *point) : std::nullopt;
           },
           [word](const Place& point) { return point ? vector().write(*point) : write_text(word); }};
 }
@@ -267,7 +264,7 @@ Keys followed_keys() {
                       f.sphere_center.reset();
                       f.sphere_radius.reset();
                     },
-                    {"The camera keeps this halo of a catalog in view, wherever its particles go; "
+                    {"The camera follows this halo; "
                      "see movies.md.",
                      "", "none"}),
                 {"path.follow.sphere.center", "path.follow.sphere.radius"}),
@@ -280,20 +277,21 @@ Keys followed_keys() {
           {"The catalog for `halo`.", "", "the snapshot's group ids, else a catalog beside it"}),
       follow_key<Place>(
           "sphere.center", point_or("densest"),
-          [](const Follow& f) { return f.halo ? std::nullopt : std::optional(f.sphere_center); },
+          [](const Follow& f) {
+            return f.halo ? std::nullopt : std::optional<Place>(std::in_place, f.sphere_center);
+          },
           [](Follow& f, const Place& value) {
             f.halo.reset();
             f.sphere_center = value;
           },
-          {"The camera keeps the particles in view that are innermost in this sphere.", "length",
-           "none; `\"densest\"` if another key of `path.follow` is set"}),
+          {"The camera follows what is innermost in this sphere.", "length", "none"}),
       follow_key<double>(
           "sphere.radius", number(more_than(0)), [](const Follow& f) { return f.sphere_radius; },
           [](Follow& f, double value) {
             f.halo.reset();
             f.sphere_radius = value;
           },
-          {"The sphere's radius.", "length", "within it 200 times as dense as the mean"}),
+          {"The sphere's radius.", "length", "200 times as dense as the mean"}),
   };
 }
 
@@ -304,22 +302,18 @@ Keys follow_keys() {
              follow_key<double>(
                  "snapshot", number(), [](const Follow& f) { return f.snapshot; },
                  [](Follow& f, double value) { f.snapshot = value; },
-                 {"The snapshot in which halo or sphere is looked up, as `time.index` has it.", "",
-                  "the last that the film reaches"}),
+                 {"The `time.index` at which it is looked up.", "", "the last"}),
              follow_key<double>(
                  "size", number(more_than(0)), [](const Follow& f) { return f.size; },
                  [](Follow& f, double value) { f.size = value; },
-                 {"How many radii of what is followed the picture's shorter side shows.", "radii",
-                  "4"}),
+                 {"The picture's shorter side.", "radii", "4"}),
              follow_key<Follow::Up>(
                  "up",
                  choice<Follow::Up>({{"camera", Follow::Up::camera},
                                      {"angular_momentum", Follow::Up::angular_momentum}}),
                  [](const Follow& f) { return f.up; },
                  [](Follow& f, Follow::Up value) { f.up = value; },
-                 {"`angular_momentum`: that of what is followed is up, and all that the path says "
-                  "turns with it.",
-                  "", "`\"camera\"`"}),
+                 {"`angular_momentum`: its own; the path turns with it.", "", "`\"camera\"`"}),
          });
   return keys;
 }
@@ -343,14 +337,14 @@ Keys approach_keys() {
   using Place = std::optional<Vec3>;
   return {
       approach_key<Place>(
-          "to", point_or("followed"), [](const Approach& a) { return std::optional(a.to); },
+          "to", point_or("followed"),
+          [](const Approach& a) { return std::optional<Place>(std::in_place, a.to); },
           [](Approach& a, const Place& value) { a.to = value; },
-          {"The camera goes from what it shows to here, or to what `path.follow` says.", "length",
-           "none; `\"followed\"` if `path.approach.width` is set"}),
+          {"The camera goes here from what it shows.", "length", "none"}),
       approach_key<double>(
           "width", number(more_than(0)), [](const Approach& a) { return a.width; },
           [](Approach& a, double value) { a.width = value; },
-          {"The length across the picture in the end.", "length", "as `path.follow.size` says"}),
+          {"Across the picture in the end.", "length", "as `path.follow.size` says"}),
   };
 }
 
@@ -457,14 +451,12 @@ Keys movie_keys() {
             return movie.audio.empty() ? std::nullopt : std::optional(movie.audio);
           },
           [](MovieSettings& movie, const std::string& value) { movie.audio = value; },
-          {"A file whose sound lies under the film, as long as that is.", "", "none"}),
+          {"A file whose sound lies under the film.", "", "none"}),
       blur_key<double>(
           "shutter", number(shutter_range()), &MotionBlur::shutter,
-          {"Each frame is the mean of pictures during this part of the time to the next.", "",
-           "no motion blur; 0.5 if `movie.motion_blur.samples` is set"}),
+          {"Frames are means over this part of their time.", "", "no motion blur, or 0.5"}),
       blur_key<int>("samples", integer(2, 1000), &MotionBlur::samples,
-                    {"How many pictures make a frame.", "",
-                     "no motion blur; 8 if `movie.motion_blur.shutter` is set"}),
+                    {"Pictures for a frame.", "", "no motion blur, or 8"}),
   };
 }
 

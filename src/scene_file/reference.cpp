@@ -43,7 +43,12 @@ std::string value_of(const Key& key) {
       {find_key("finish.title.at")->expected, "a place"},
   };
   const auto found = shorter.find(key.expected);
-  const std::string value = found == shorter.end() ? key.expected : found->second;
+  std::string value = found == shorter.end() ? key.expected : found->second;
+  const std::string between_words = "\" or \"";
+  for (std::size_t at = value.find(between_words); at != std::string::npos;
+       at = value.find(between_words, at)) {
+    value.replace(at, between_words.size(), "\", \"");
+  }
   return key.unit.empty() ? value : value + "; " + key.unit;
 }
 
@@ -62,7 +67,7 @@ std::string with_links(std::string text) {
 }
 
 std::string row(const Key& key, const std::string& name) {
-  return fmt::format("| `{}` | {} | {} | {} |\n", name, value_of(key), with_links(default_of(key)),
+  return fmt::format("`{}` | {} | {} | {}\n", name, value_of(key), with_links(default_of(key)),
                      with_links(key.meaning));
 }
 
@@ -92,7 +97,7 @@ std::string row(const Family& family) {
     names += names.empty() ? "`" + family.stem.substr(family.stem.find('.') + 1) + name + "`"
                            : ", `" + name + "`";
   }
-  return fmt::format("| {} | as `{}.*` | not used | {} |\n", names, family.model, family.meaning);
+  return fmt::format("{} | as `{}.*` | not used | {}\n", names, family.model, family.meaning);
 }
 
 std::string rows_of_table(const std::string& table) {
@@ -117,8 +122,8 @@ std::string key_reference() {
   std::string text;
   for (const std::string table : {"", "read", "image", "camera", "stereo", "kernel", "sort", "time",
                                   "path", "movie", "periodic", "finish", "map", "component"}) {
-    text += fmt::format("### {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
-                        heading(table));
+    text +=
+        fmt::format("### {}\n\nkey | value | default | meaning\n---|---|---|---\n", heading(table));
     text += rows_of_table(table) + "\n";
   }
   return text;

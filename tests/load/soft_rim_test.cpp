@@ -91,6 +91,13 @@ TEST(DarkComponent, ReadsAndDrawsNothing) {
   EXPECT_THAT(snapshot.fields_read(), ::testing::IsEmpty());
 }
 
+TEST(DarkComponent, IsDrawnWhereItStillAbsorbs) {
+  Component dark = gas();
+  dark.brightness = 0;
+  dark.absorption = {Absorption::Kind::factor, 2};
+  EXPECT_EQ(load(dark, gas_row()).particles.count, 6U);
+}
+
 // Just before it is dark there is hardly any light: nothing pops.
 TEST(DarkComponent, IsWhatAlmostDarkOnesBecome) {
   Component almost = gas();

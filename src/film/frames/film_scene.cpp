@@ -100,7 +100,7 @@ Camera upright(Camera camera, const ImageSettings& image) {
 }  // namespace
 
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
-                     const std::shared_ptr<Communicator>& ranks, const std::string& dive)
+                     const std::shared_ptr<Communicator>& ranks, const FilmTarget& target)
     : ranks_(ranks) {
   WatchedFiles opening;  // a scene file may change later on: it is read only once
   opening.add(path);
@@ -113,7 +113,7 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
   // A scene file says itself what its film is.
-  if (opened.suggested || !dive.empty()) suggest_film(dive, *snapshot_at(scene_), scene_);
+  if (opened.suggested || !target.name.empty()) suggest_film(target, *snapshot_at(scene_), scene_);
   path_.emplace(scene_, notes_, find_followed);
   path_->check(scene_);
   watch_files();

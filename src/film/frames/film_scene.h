@@ -13,6 +13,7 @@
 #include "pictures/other_scenes.h"
 #include "sequence/film_snapshots.h"
 #include "splotchcl/communicator.h"
+#include "splotchcl/film.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 
@@ -37,9 +38,9 @@ class FilmScene {
  public:
   // Checks every frame of the path. Reads particles only to choose a camera for a scene that has
   // none. All of `ranks`, where there are some, make the same calls, within agree().
-  // `dive` is as in FilmOptions.
+  // `target` is as in FilmOptions.
   FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
-            const std::shared_ptr<Communicator>& ranks = nullptr, const std::string& dive = "");
+            const std::shared_ptr<Communicator>& ranks = nullptr, const FilmTarget& target = {});
 
   // First checks what frames name: fields, palettes, files, texts. Then decides whatever the scene
   // leaves to the data, from the first frame, or from a later one for a component of which the

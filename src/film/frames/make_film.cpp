@@ -72,7 +72,7 @@ class Film {
   Film(const FilmOptions& options, const FilmReport& report)
       : options_(options),
         report_(report),
-        scene_(options.scene, options.settings, options.ranks, options.dive),
+        scene_(options.scene, options.settings, options.ranks, options.target),
         start_(scene_.scene_at(0)),
         files_(options.output, suffixes_of(start_)) {
     if (has_files()) check_pictures(files_, start_);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/words.h"
@@ -16,19 +18,23 @@ namespace {
 
 constexpr int usual_frames = 250;  // ten seconds
 
-Follow follow_of(const std::string& dive) {
+const char* option_of(const FilmTarget& target) {
+  return target.is_approached ? "--dive" : "--follow";
+}
+
+Follow follow_of(const FilmTarget& target) {
   Follow follow;
-  if (dive == "densest") return follow;
+  if (target.name == "densest") return follow;
   const std::string start = "halo=";
-  const auto number =
-      dive.rfind(start, 0) == 0 ? parse_number(dive.substr(start.size())) : std::optional<double>();
+  std::optional<double> number;
+  if (target.name.rfind(start, 0) == 0) number = parse_number(target.name.substr(start.size()));
   constexpr double most = 2147483647;
   if (number && *number >= 0 && *number <= most && *number == static_cast<int>(*number)) {
     follow.halo = static_cast<int>(*number);
     return follow;
   }
-  throw UsageError(
-      fmt::format("--dive: found {}, expected densest, or halo=N with the number of a halo", dive));
+  throw UsageError(fmt::format("{}: found {}, expected densest, or halo=N with a halo's number",
+                               option_of(target), target.name));
 }
 
 Keyframe at_index(double frame, double index) {
@@ -69,22 +75,23 @@ void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
 
 }  // namespace
 
-void suggest_film(const std::string& dive, const Snapshot& snapshot, Scene& scene) {
+void suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene) {
   PathSettings& path = scene.path;
-  if (path.is_set() && !dive.empty()) {
-    throw UsageError(
-        "--dive: found it for a scene with a [path], expected a scene or a snapshot "
-        "without one; path.follow and path.approach say the same in a scene");
+  const bool has_target = !target.name.empty(), is_series = scene.time.is_set();
+  if (path.is_set() && has_target) {
+    throw UsageError(fmt::format(
+        "{}: found it for a scene with a [path], expected a scene or a snapshot without one; "
+        "path.follow and path.approach say the same in a scene",
+        option_of(target)));
   }
-  if (path.is_set() || (dive.empty() && scene.movie.frames && !scene.time.is_set())) return;
+  if (path.is_set()) return;
   if (!scene.movie.frames) scene.movie.frames = usual_frames;
-  if (scene.time.is_set()) path.keyframes = time_lapse(scene);
-  if (dive.empty()) {
-    path.orbit = slow_orbit(scene.time.is_set());
-    return;
-  }
-  path.follow = follow_of(dive);
+  if (is_series) path.keyframes = time_lapse(scene);
+  if (!target.is_approached) path.orbit = slow_orbit(is_series);
+  if (!has_target) return;
+  path.follow = follow_of(target);
   show_box_around_target(snapshot, scene);
+  if (!target.is_approached) return;
   path.approach.emplace();
   // Close to the densest place there is far more light than in the whole.
   if (!scene.finish.exposure) scene.finish.exposure_follows = true;

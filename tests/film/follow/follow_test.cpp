@@ -203,7 +203,7 @@ TEST(FollowedBall, IsFoundAsTheDensestPlaceWithAFittingRadius) {
   const test::TemporaryFolder folder;
   write_ball(folder / "snapshot_0", 98);
   FilmScene film(folder / "snapshot_0", {"movie.frames=10", "image.size=[64, 64]"}, nullptr,
-                 "densest");
+                 {"densest", true});
   const Scene end = film.scene_at(9);
   EXPECT_TRUE(end.periodic.wrap);
   EXPECT_NEAR(mag(nearest(end.camera->look_at - Vec3{{98, 50, 50}}, 100)), 0, 1);
@@ -221,8 +221,11 @@ TEST(FollowedBall, IsRefusedWhereThereIsNone) {
                                         "path.follow.sphere.radius=0.5"};
   EXPECT_THAT([&] { FilmScene(folder / "snapshot_0", far); },
               ThrowsMessage<UsageError>(HasSubstr("found no particle")));
-  EXPECT_THAT([&] { FilmScene(folder / "snapshot_0", {}, nullptr, "sparsest"); },
-              ThrowsMessage<UsageError>(HasSubstr("--dive")));
+  EXPECT_THAT(
+      [&] {
+        FilmScene(folder / "snapshot_0", {}, nullptr, {"sparsest", true});
+      },
+      ThrowsMessage<UsageError>(HasSubstr("--dive")));
 }
 
 TEST(SuggestedFilm, OfASnapshotIsAnOrbitThatEasesInAndOut) {
@@ -244,11 +247,23 @@ TEST(SuggestedFilm, OfASequenceGoesThroughItsTime) {
   EXPECT_EQ(film.scene_at(4).time.index, 5);
 }
 
+TEST(SuggestedFilm, OrbitsAroundWhatItFollows) {
+  const test::TemporaryFolder folder;
+  for (int i = 0; i < 2; ++i)
+    write_ball(folder / ("snapshot_" + std::to_string(i)), 50 + 5 * i);
+  const FilmScene film(folder / "snapshot_%d", {"movie.frames=5"}, nullptr, {"densest", false});
+  for (int frame = 0; frame < 5; ++frame) {
+    const Vec3 place = {{50.0 + 5 * film.scene_at(frame).time.index, 50, 50}};
+    EXPECT_NEAR(mag(film.scene_at(frame).camera->look_at - place), 0, 1) << frame;
+  }
+  EXPECT_GT(mag(film.scene_at(4).camera->position - film.scene_at(0).camera->position), 1);
+}
+
 TEST(SuggestedFilm, CanBeWrittenAsASceneAndIsTheSame) {
   const test::TemporaryFolder folder;
   for (int i = 0; i < 2; ++i)
     write_ball(folder / ("snapshot_" + std::to_string(i)), 50 + i);
-  const FilmScene film(folder / "snapshot_%d", {"movie.frames=5"}, nullptr, "densest");
+  const FilmScene film(folder / "snapshot_%d", {"movie.frames=5"}, nullptr, {"densest", true});
   std::ofstream(folder / "again.toml") << format_scene(film.scene());
   const FilmScene again(folder / "again.toml", {});
   for (int frame = 0; frame < 5; ++frame)
