@@ -13,11 +13,11 @@ namespace splotchcl {
 // key follows the keyframes that name it, whatever the others do.
 struct Keyframe {
   double frame = 0;  // >= 0, counted from 0
+  // Values by scene key ("camera.position", "component.gas.brightness"), as in a scene file.
+  std::map<std::string, std::string> values;
   // Of the keys that it names: they slow down until they stop here, and start again slowly.
   bool is_eased = false;
   double dwell = 0;  // so many frames they stay; above 0 they are eased, too
-  // Values by scene key ("camera.position", "component.gas.brightness"), as in a scene file.
-  std::map<std::string, std::string> values;
 };
 
 // The camera, its look-at point and its sky turn about an axis, counterclockwise seen from

@@ -228,6 +228,24 @@ TEST(FollowedBall, IsRefusedWhereThereIsNone) {
       ThrowsMessage<UsageError>(HasSubstr("--dive")));
 }
 
+// A table of particles that know their halo: the second is a ball about (40, 50, 60).
+TEST(FollowedHalo, IsFoundByTheNumbersOfItsParticles) {
+  const test::TemporaryFolder folder;
+  std::ofstream table(folder / "particles.txt");
+  table << "x y z smoothing_length halo_id\n";
+  for (int i = 0; i < 1000; ++i) {
+    table << i % 10 * 10 << ' ' << i / 10 % 10 * 10 << ' ' << i / 100 * 10 << " 5 0\n";
+    if (i < 343) table << 37 + i % 7 << ' ' << 47 + i / 7 % 7 << ' ' << 57 + i / 49 << " 1 2\n";
+  }
+  table.close();
+  const FilmScene film(folder / "particles.txt",
+                       {"movie.frames=2", "path.follow.halo=2", "image.size=[64, 64]"});
+  const Scene scene = film.scene_at(0);
+  EXPECT_NEAR(mag(scene.camera->look_at - Vec3{{40, 50, 60}}), 0, 0.5);
+  const CameraFrame camera = make_camera_frame(*scene.camera, 64, 64);
+  EXPECT_NEAR(64 / camera.pixels_per_length, 4 * 4, 4);
+}
+
 TEST(SuggestedFilm, OfASnapshotIsAnOrbitThatEasesInAndOut) {
   const test::TemporaryFolder folder;
   write_ball(folder / "snapshot_0", 50);
