@@ -36,6 +36,10 @@ std::vector<std::string> suffixes_of(const Scene& scene) {
 // Everything that the pictures can fail by is tried before anything is read.
 void check_pictures(const FrameFiles& files, const Scene& scene) {
   files.check();
+  if (!files.is_film() && !scene.movie.audio.empty()) {
+    throw UsageError("movie.audio: found " + scene.movie.audio +
+                     " for numbered images, which have no sound, expected a film such as film.mp4");
+  }
   for (const PictureSize& size : sizes_of(scene)) {
     if (files.is_film()) {
       check_film(files.film(size.suffix), scene.movie, size.width, size.height);

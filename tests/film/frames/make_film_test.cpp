@@ -346,6 +346,11 @@ std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+TEST_F(Films, OfNumberedImagesHaveNoSound) {
+  options_.settings = {"movie.audio=music.wav"};
+  EXPECT_THAT(refusal(), HasSubstr("movie.audio"));
+}
+
 TEST_F(Films, OfNumberedExrHaveATimecode) {
   options_.output = folder_ / "frame_%d.exr";
   make_film(options_, report_);
