@@ -47,6 +47,10 @@ struct Camera {
   // As scene files say it: where the camera, as it is turned, is moved to look at. Reading a scene
   // moves position and look_at by it and unsets it; nothing else looks at it.
   std::optional<Vec3> center = std::nullopt;
+  // Of a fisheye under a dome: the look-at point is at the bottom of the picture, in front of the
+  // audience, so many degrees above the dome's rim, and the sky is up; -90 to 90. Unset: the
+  // look-at point is in the middle.
+  std::optional<double> dome_tilt_degrees = std::nullopt;
 };
 
 // The field of view in degrees: as the camera says, by its width, or the projection's own.

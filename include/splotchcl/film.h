@@ -13,11 +13,21 @@
 
 namespace splotchcl {
 
+// What a film that is suggested goes to, or keeps in view: the "densest" place, or a halo,
+// "halo=N". Empty: all.
+struct FilmTarget {
+  std::string name;
+  bool is_approached = false;  // from all that the scene shows
+};
+
 // A film, as the command `splotchcl movie` makes it (docs/movies.md).
 struct FilmOptions {
-  std::filesystem::path scene;   // as for open_scene; its [path] and [movie] say what the film is
-  std::filesystem::path output;  // a film (.mp4, .mov, .mkv, .webm), or frame_%04d.png
+  // As for open_scene; its [path] and [movie] say what the film is. That of a snapshot or of a
+  // sequence, if nothing says, is an orbit, through all its time.
+  std::filesystem::path scene;
+  std::filesystem::path output;       // a film (.mp4, .mov, .mkv, .webm), or frame_%04d.png
   std::vector<std::string> settings;  // "key=value" strings of scene keys
+  FilmTarget target;                  // of a scene whose [path] says nothing
   std::string device;                 // as in FrameDrawerOptions
   bool by_reference = false;
   std::uint64_t memory_bytes = 0;  // as in RendererOptions

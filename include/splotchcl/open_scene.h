@@ -25,7 +25,8 @@ struct SceneWithSnapshot {
 bool is_par_file(const std::filesystem::path& path);
 
 // What the command line takes for a scene: a scene file, a parameter file of the original program,
-// or a snapshot, for which a scene is chosen. `settings` are "key=value" strings of scene keys
+// a snapshot, for which a scene is chosen, or a pattern of a sequence of them (snapshot_%03d), of
+// which the last is drawn. `settings` are "key=value" strings of scene keys
 // that override it. Throws UsageError for a scene or a setting that is wrong, DataError for files
 // that cannot be read. Where all of `ranks` make the call, of the same files, they look at
 // particles together, each at its share: then, and whenever what the snapshot draws is decided or

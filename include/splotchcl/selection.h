@@ -22,6 +22,8 @@ struct ParticleSet {
   std::optional<Vec3> box_minimum, box_maximum;
   std::optional<Vec3> sphere_center;
   std::optional<double> sphere_radius;  // > 0
+  // The weights fall smoothly to 0 over so much within the radius; > 0 and at most the radius.
+  std::optional<double> sphere_rim;
 
   // Whether it says anything; else no particle belongs to it.
   bool is_given() const {

@@ -201,7 +201,8 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
       app, run, "movie", "Make a film", options,
       [&console](const MovieOptions& o) { return run_movie(o, console); });
   sub->add_option("SCENE", options->scene,
-                  wrapped("A scene file (.toml) with a [path], or a snapshot and settings"))
+                  wrapped("A scene file (.toml) with a [path], a snapshot, or a sequence such as "
+                          "snapshot_%03d: without a path it is turned about, through all its time"))
       ->required();
   sub->add_option("-o,--output", options->output,
                   wrapped("The film (.mp4 .mov .mkv .webm, encoded by ffmpeg), or numbered images "
@@ -217,6 +218,22 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
          wrapped(
              "Draw the K-th of N shares of the frames; the process that ends last makes the film"))
       ->type_name("K/N");
+  CLI::Option* const dive =
+      sub->add_option("--dive", options->dive,
+                      wrapped("Go from all that is shown to the densest place, or to the halo of a "
+                              "catalog: densest or halo=N"))
+          ->type_name("WHERE");
+  sub->add_option("--follow", options->follow, wrapped("Orbit around it, wherever it goes"))
+      ->excludes(dive)
+      ->type_name("WHERE");
+  sub->add_option("--dome", options->dome,
+                  wrapped("A master for planetariums, of so many pixels: 180 degrees, what the "
+                          "camera looks at in front, at the bottom, 15 degrees above the rim, 30 "
+                          "frames per second"))
+      ->check(CLI::Range(64, 8192))
+      ->type_name("SIZE");
+  sub->add_option("--audio", options->audio, wrapped("Lay this file's sound under the film"))
+      ->type_name("FILE");
   sub->add_flag("--join", options->join,
                 wrapped("Only make the film from frames that are already drawn"));
   sub->footer(
@@ -225,8 +242,8 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
       "Examples:\n"
       "  splotchcl movie flight.toml -o flight.mp4\n"
       "  splotchcl movie flight.toml --explain\n"
-      "  splotchcl movie snapshot_006 --set path.orbit.degrees=360 --set movie.frames=250 -o "
-      "turn.mp4\n"
+      "  splotchcl movie snapshot_006 -o turn.mp4\n"
+      "  splotchcl movie snapshot_%03d --dive densest -o dive.mp4\n"
       "  splotchcl movie flight.toml -o frame_%04d.exr --frames 0:100 --part 3/8");
 }
 

@@ -89,6 +89,9 @@ struct MovieOptions : DrawOptions {
   std::optional<std::filesystem::path> output;  // a film, or numbered images
   std::string frames;                           // FIRST:END:STEP
   std::string part;                             // K/N
+  std::string dive, follow;                     // densest, or halo=N
+  std::optional<std::string> audio;
+  std::optional<int> dome;  // its diameter in pixels
   bool join = false;
 };
 int run_movie(const MovieOptions& options, Console& console);

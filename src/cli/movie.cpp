@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <iostream>
@@ -108,13 +109,42 @@ class Watch {
   std::vector<FilmFrameStats> drawn_;
 };
 
+// A master of planetariums, but for what the user says.
+void add_dome(int size, std::vector<std::string>& settings) {
+  const std::vector<std::string> own = settings;
+  const auto add = [&](const std::string& key, const std::string& value) {
+    const bool is_given = std::any_of(own.begin(), own.end(), [&key](const std::string& s) {
+      return s.rfind(key + "=", 0) == 0;
+    });
+    if (!is_given) settings.push_back(key + "=" + value);
+  };
+  add("image.size", fmt::format("{}x{}", size, size));
+  add("camera.projection", "fisheye");
+  add("camera.field_of_view", "180");
+  add("camera.dome_tilt", "15");
+  add("movie.frames_per_second", "30");
+}
+
+std::vector<std::string> film_settings(const MovieOptions& options) {
+  std::vector<std::string> settings = settings_of(options);
+  if (options.audio) settings.push_back("movie.audio=" + *options.audio);
+  if (options.dome) add_dome(*options.dome, settings);
+  return settings;
+}
+
+FilmTarget target_of(const MovieOptions& options) {
+  if (!options.dive.empty()) return {options.dive, true};
+  return {options.follow, false};
+}
+
 FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Communicator>& ranks) {
   FilmOptions film;
   film.ranks = ranks;
   film.scene = options.scene;
   film.stats = options.stats;
   film.output = *options.output;
-  film.settings = settings_of(options);
+  film.settings = film_settings(options);
+  film.target = target_of(options);
   film.device = options.device;
   film.by_reference = options.reference;
   film.memory_bytes = options.memory_bytes;
@@ -128,7 +158,7 @@ FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Comm
 
 // By the first of the frames that are asked for.
 void explain_film(const MovieOptions& options, Console& console) {
-  FilmScene film(options.scene, settings_of(options));
+  FilmScene film(options.scene, film_settings(options), nullptr, target_of(options));
   const std::vector<int> frames =
       select_part(options.part, select_frames(options.frames, film.path().frame_count()));
   if (frames.empty()) throw UsageError("--part: has no frames to explain");
@@ -141,7 +171,9 @@ void explain_film(const MovieOptions& options, Console& console) {
   const int count = static_cast<int>(frames.size());
   std::cout << fmt::format("# film: {} frame{}; what follows is of frame {}\n", count,
                            count == 1 ? "" : "s", frames.front());
-  print_explanation(make_plan(frame), frame, film.scene(), options, count);
+  const int samples = scene.movie.motion_blur ? scene.movie.motion_blur->samples : 1;
+  if (samples > 1) std::cout << fmt::format("# motion blur: {} drawings for each frame\n", samples);
+  print_explanation(make_plan(frame), frame, film.scene(), options, count * samples);
 }
 
 void tell_result(const FilmResult& result, const MovieOptions& options, Console& console) {

@@ -7,12 +7,14 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfTimeCode.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <fstream>
 #include <limits>
@@ -190,10 +192,19 @@ void require_all_lines(const std::string& name, const std::vector<unsigned char>
   if (!Imf::InputFile(source).isComplete()) throw std::bad_alloc();
 }
 
+// "HH:MM:SS:FF", where other programs look for it.
+void add_time_code(const std::string& text, Imf::Header& header) {
+  int hours = 0, minutes = 0, seconds = 0, frame = 0;
+  if (std::sscanf(text.c_str(), "%2d:%2d:%2d:%2d", &hours, &minutes, &seconds, &frame) != 4) return;
+  Imf::addTimeCode(header, Imf::TimeCode(hours, minutes, seconds, frame));
+}
+
 Imf::Header make_header(const Image& image, const std::map<std::string, std::string>& metadata) {
   Imf::Header header(image.width, image.height);
   for (const char* channel : channels)
     header.channels().insert(channel, Imf::Channel(Imf::FLOAT));
+  const auto time_code = metadata.find("splotchcl:timecode");
+  if (time_code != metadata.end()) add_time_code(time_code->second, header);
   for (const auto& [name, text] : metadata)
     header.insert(name, Imf::StringAttribute(text));
   Imf::addChromaticities(header, Imf::Chromaticities());  // Rec. 709's, which are sRGB's

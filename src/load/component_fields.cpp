@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -280,13 +281,36 @@ Column ComponentFields::weight_factors() const {
     return field != nullptr && field->file_name.empty();
   };
   const bool some_fade = std::any_of(types_.begin(), types_.end(), fades);
-  if (!some_fade && stand_for_the_same()) return {};
+  const bool has_rim = component_.select.sphere_rim.has_value();
+  if (!some_fade && !has_rim && stand_for_the_same()) return {};
   return collected("weight factors", [&](const TypeFields& type) {
     const float factor = factor_of(type);
-    if (!fades(type)) return Column::uniform(factor);
-    const Column fade = type.scalars(fade_field, "fade");
-    return factor == 1 ? fade : faded(Column::uniform(factor), fade, type.count());
+    Column factors = Column::uniform(factor);
+    if (fades(type)) {
+      const Column fade = type.scalars(fade_field, "fade");
+      factors = factor == 1 ? fade : faded(factors, fade, type.count());
+    }
+    return has_rim ? faded(factors, rim_factors(type), type.count()) : factors;
   });
+}
+
+// 1 within the rim, and 0 at the sphere's surface and beyond.
+Column ComponentFields::rim_factors(const TypeFields& type) const {
+  const ParticleSet& set = component_.select;
+  const Vec3 to_center = snapshot_.position_origin() - *set.sphere_center;
+  const Column position = type.positions();
+  std::vector<float> factors(type.count());
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    double offset[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      offset[axis] = to_center.a[axis] + static_cast<double>(position[3 * i + axis]);
+      if (periodic_box_) offset[axis] = nearest_image(offset[axis], (*periodic_box_)[axis]);
+    }
+    const double inwards = *set.sphere_radius - std::hypot(offset[0], offset[1], offset[2]);
+    const double part = std::clamp(inwards / *set.sphere_rim, 0.0, 1.0);
+    factors[i] = static_cast<float>(part * part * (3 - 2 * part));
+  }
+  return Column::owning(std::move(factors));
 }
 
 Column ComponentFields::with_factors(const Column& weights) const {

@@ -78,6 +78,7 @@ class ComponentFields {
   bool stand_for_the_same() const;
   float factor_of(const TypeFields& type) const;
   Column weight_factors() const;  // absent: 1 for all
+  Column rim_factors(const TypeFields& type) const;
   using Read = std::function<Column(const TypeFields&)>;
   Column collected(const std::string& what, const Read& read, std::size_t width = 1) const;
   void add_up_counts(std::size_t type);

@@ -113,8 +113,7 @@ Column ComponentReader::weights(WeightModel weight) const {
   return {};
 }
 
-DrawnComponent ComponentReader::drawn(WeightModel weight) {
-  select();
+DrawnComponent ComponentReader::dark(WeightModel weight) const {
   DrawnComponent drawn;
   drawn.name = fields_.name();
   drawn.size_factor = drawn_size_factor(component_);
@@ -123,7 +122,12 @@ DrawnComponent ComponentReader::drawn(WeightModel weight) {
   drawn.palette = choose_palette(component_);
   drawn.weight = weight;
   drawn.particles_per_drawn = fields_.particles_per_drawn();
+  return drawn;
+}
 
+DrawnComponent ComponentReader::drawn(WeightModel weight) {
+  select();
+  DrawnComponent drawn = dark(weight);
   Particles& particles = drawn.particles;
   particles.count = fields_.count();
   particles.origin = fields_.origin();

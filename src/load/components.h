@@ -44,6 +44,8 @@ class ComponentReader {
   const Column& intensity();
   // The component with all of its particles, but for ranges and the reference column.
   DrawnComponent drawn(WeightModel weight);
+  // The same without its particles, of which nothing is read.
+  DrawnComponent dark(WeightModel weight) const;
 
  private:
   void select();

@@ -157,6 +157,11 @@ std::shared_ptr<const Image> background_image(const ImageSettings& image,
   });
 }
 
+// Neither shines nor absorbs.
+bool is_dark(const Component& component) {
+  return component.brightness == 0 && component.absorption.kind != Absorption::Kind::factor;
+}
+
 // Nothing that is drawn errs by less.
 void note_small_tolerance(double tolerance, std::vector<std::string>& notes) {
   if (tolerance == 0 || tolerance >= extended_tolerance) return;
@@ -290,7 +295,9 @@ Frame FrameLoader::load(const DecidedScene& decided) {
   frame.spread = snapshot_.spread();
   auto numbers = decided.components.begin();
   for (Part& part : parts_) {
-    DrawnComponent drawn = read(part, numbers->weight, decided.scene.camera->look_at);
+    DrawnComponent drawn = is_dark(part.reader.component())
+                               ? part.reader.dark(numbers->weight)
+                               : read(part, numbers->weight, decided.scene.camera->look_at);
     if (const auto note = tell_dark_color(part.reader.component(), drawn.palette))
       part.reader.fields().note(*note);
     drawn.color = numbers->color;

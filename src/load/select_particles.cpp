@@ -228,11 +228,12 @@ std::string text_of(const std::optional<Vec3>& v) {
 }
 
 std::string text_of(const ParticleSet& set) {
-  return fmt::format("where {} ids {} halo {} of {} box {} {} sphere {} {}",
+  return fmt::format("where {} ids {} halo {} of {} box {} {} sphere {} {} rim {}",
                      fmt::join(set.where, "; "), set.id_file, set.halo.value_or(-1),
                      set.halo_catalog, text_of(set.box_minimum), text_of(set.box_maximum),
                      text_of(set.sphere_center),
-                     set.sphere_radius ? fmt::format("{}", *set.sphere_radius) : "-");
+                     set.sphere_radius ? fmt::format("{}", *set.sphere_radius) : "-",
+                     set.sphere_rim ? fmt::format("{}", *set.sphere_rim) : "-");
 }
 
 void check_ids(const TypeFields& fields, const Snapshot& snapshot) {

@@ -38,10 +38,19 @@ const Component& choose_component(const Scene& scene) {
                    did_you_mean(nearest_name(scene.map.component, names)));
 }
 
+// A map's numbers would be of a part of what is there.
+void refuse_rim(const Component& component) {
+  if (!component.select.sphere_rim) return;
+  throw UsageError(
+      "key component.select.sphere.rim: found it in a map, which counts whole particles, expected "
+      "a sphere without a rim");
+}
+
 // The scene with the map's component alone.
 Scene scene_of_map(const Scene& scene) {
   Scene one = scene;
   one.components = {choose_component(scene)};
+  refuse_rim(one.components.front());
   // What colors its particles in pictures need not be there.
   Component& component = one.components.front();
   component.color = {};

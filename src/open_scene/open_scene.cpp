@@ -12,6 +12,7 @@
 #include "ranks/exchange.h"
 #include "scene_file/suggested.h"
 #include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/par_file.h"
@@ -206,11 +207,42 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
   return result;
 }
 
+// The scene of a sequence's last snapshot, in which there is most to be seen.
+SceneWithSnapshot open_sequence(const std::string& pattern,
+                                const std::vector<std::string>& settings,
+                                const std::shared_ptr<Communicator>& ranks, Look otherwise) {
+  SceneWithSnapshot result;
+  Scene begun;
+  begun.time.pattern = pattern;
+  const std::vector<ListedSnapshot> list = list_snapshots(begun.time);
+  begun.time.index = list.back().index;
+  result.snapshot = SnapshotSource().at(begun);
+  share_passes(*result.snapshot, ranks);
+  const Look look = look_in(settings, otherwise);
+  Scene suggested =
+      with_wanted_types(suggest_scene(*result.snapshot, look), settings, *result.snapshot, look);
+  suggested.snapshot.clear();
+  suggested.time = begun.time;
+  result.suggested = suggested;
+  result.scene = scene_file::apply_settings_to_suggested(suggested, &suggested, settings);
+  result.scene.look.reset();
+  if (result.scene.time.index != begun.time.index)
+    result.snapshot = SnapshotSource().at(result.scene);
+  return result;
+}
+
+bool is_sequence(const std::filesystem::path& path) {
+  std::error_code error;
+  return is_snapshot_pattern(path.string()) && !std::filesystem::exists(path, error);
+}
+
 SceneWithSnapshot open_together(const std::filesystem::path& path,
                                 const std::vector<std::string>& settings, const ShortKeys& keys,
                                 const std::shared_ptr<Communicator>& ranks, Look otherwise) {
   SceneWithSnapshot result;
-  if (is_par_file(path)) {
+  if (is_sequence(path)) {
+    result = open_sequence(path.string(), settings, ranks, otherwise);
+  } else if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
     refuse_look(result.scene, path);
     result.snapshot = SnapshotSource().at(result.scene);

@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "film/follow/find_followed.h"
 #include "film/path/film_path.h"
 #include "python/bindings.h"
 #include "python/progress.h"
@@ -61,7 +62,7 @@ py::tuple decide_scene(const Scene& scene, const Source& source, py::object repo
 
 std::vector<Scene> scenes_of_path(const Scene& scene) {
   Notes notes;
-  const FilmPath path(scene, notes);
+  const FilmPath path(scene, notes, find_followed);
   path.check(scene);
   std::vector<Scene> scenes;
   for (int frame = 0; frame < path.frame_count(); ++frame)

@@ -143,6 +143,30 @@ double field_of_view_degrees(const Camera& camera) {
   return 45;
 }
 
+namespace {
+
+void check_dome(const Camera& camera) {
+  if (!camera.dome_tilt_degrees) return;
+  const double tilt = *camera.dome_tilt_degrees;
+  if (camera.projection != Projection::fisheye) {
+    throw UsageError("camera.dome_tilt: found " + text(tilt) +
+                     " in another projection, expected camera.projection \"fisheye\"");
+  }
+  if (tilt >= -90 && tilt <= 90) return;
+  throw UsageError("camera.dome_tilt: found " + text(tilt) + " degrees, expected -90 to 90");
+}
+
+// The dome's top is ahead, and what was ahead is at the bottom, so far above the rim.
+void look_up(double tilt_degrees, CameraFrame& frame) {
+  using namespace boost::qvm;
+  const double angle = tilt_degrees * pi / 180;
+  const Vec3 front = frame.forward, up = -frame.down;
+  frame.forward = std::sin(angle) * front + std::cos(angle) * up;
+  frame.down = std::cos(angle) * front - std::sin(angle) * up;
+}
+
+}  // namespace
+
 CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   using namespace boost::qvm;
   check_finite(camera.position, "camera.position");
@@ -150,6 +174,7 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   check_finite(camera.sky, "camera.sky");
   check_limits(camera);
   check_width(camera);
+  check_dome(camera);
   check_field_of_view(camera);
   check_shape(camera, width, height);
 
@@ -180,6 +205,7 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   frame.forward = forward;
   frame.right = normalized(right);
   frame.down = cross(forward, frame.right);
+  if (camera.dome_tilt_degrees) look_up(*camera.dome_tilt_degrees, frame);
   // Not by way of an angle: a length of the data keeps all its digits.
   frame.focal_pixels =
       camera.width ? distance * width / *camera.width : focal_length(camera, width, height);

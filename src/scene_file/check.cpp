@@ -174,6 +174,17 @@ void check_field_map(const FieldMap& map, const std::string& label, const Origin
   check_positive(map.maximum, label + ".max");
 }
 
+void check_rim(const ParticleSet& set, const std::string& label, const Origins& origins) {
+  if (!set.sphere_rim) return;
+  const std::string rim = label + ".sphere.rim";
+  if (!set.sphere_radius)
+    refuse(origins.at(rim), rim, "it alone", label + ".sphere.radius as well");
+  if (*set.sphere_rim <= *set.sphere_radius) return;
+  refuse(origins.at(rim), rim, write_number(*set.sphere_rim),
+         fmt::format("at most {}.sphere.radius, which is {}", label,
+                     write_number(*set.sphere_radius)));
+}
+
 // Corners in order, and nothing that lacks its other half.
 void check_set(const ParticleSet& set, const std::string& label, const Origins& origins) {
   const auto check_pair = [&](bool has_first, bool has_second, const std::string& first,
@@ -188,6 +199,7 @@ void check_set(const ParticleSet& set, const std::string& label, const Origins& 
   if (!set.halo_catalog.empty() && !set.halo) {
     refuse(origins.at(label + ".catalog"), label + ".catalog", "it alone", label + ".halo as well");
   }
+  check_rim(set, label, origins);
   if (!set.box_minimum || !set.box_maximum) return;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double low = set.box_minimum->a[axis], high = set.box_maximum->a[axis];
@@ -218,6 +230,25 @@ void check_path(const PathSettings& path, const Origins& origins) {
   if (path.fly && path.fly->through.size() < 2) {
     refuse(origins.at("path.fly.look_at"), "path.fly.through", "nothing",
            "two or more points that the camera flies through");
+  }
+  if (path.follow && !path.follow->catalog.empty() && !path.follow->halo) {
+    refuse(origins.at("path.follow.catalog"), "path.follow.catalog", "it alone",
+           "path.follow.halo as well");
+  }
+  if (!path.approach) return;
+  const char* const given =
+      origins.contains("path.approach.to") ? "path.approach.to" : "path.approach.width";
+  if (path.fly || !path.file.empty()) {
+    refuse(origins.at(given), given, "it beside a path that moves the camera",
+           "an approach alone, with an orbit, or with keyframes of other keys");
+  }
+  if (!path.approach->to && !path.follow) {
+    refuse(origins.at(given), "path.approach.to", "nothing to approach",
+           "a point, or path.follow as well");
+  }
+  if (!path.approach->width && !path.follow) {
+    refuse(origins.at(given), "path.approach.width", "nothing",
+           "the length that the picture shows in the end");
   }
 }
 

@@ -22,6 +22,8 @@ const std::map<std::string, bool (*)(const std::string&)>& file_keys() {
   static const std::map<std::string, bool (*)(const std::string&)> keys = {
       {"snapshot", is_any_name},
       {"path.file", is_any_name},
+      {"path.follow.catalog", is_any_name},
+      {"movie.audio", is_any_name},
       {"image.background_image", is_any_name},
       {"finish.cross_fade.scene", is_any_name},
       {"finish.font", is_font_path},

@@ -199,6 +199,9 @@ Keys camera_keys() {
               &Camera::cube_layout,
               {"The faces as one sheet (right, left, up above down, front, back) or as six files, "
                "NAME_right and so on."})),
+      written_if_set(key("camera.dome_tilt", number(between(-90, 90)), &Camera::dome_tilt_degrees,
+                         {"Of domes: how far `look_at`, in front at the bottom, is above the rim.",
+                          "degrees", "`look_at` is in the middle"})),
       key("camera.near", number(), &Camera::near_limit,
           {"Particles nearer than this along the view (wide angles: in distance) are left out. >= "
            "0, except with `orthographic`.",

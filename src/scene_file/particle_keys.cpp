@@ -104,6 +104,14 @@ Keys set_keys(const std::string& path, ParticleSet Component::*set) {
   };
 }
 
+Key rim_key() {
+  return key<Component, double>(
+      "component.select.sphere.rim", number(more_than(0)),
+      [](const Component& component) { return component.select.sphere_rim; },
+      [](Component& component, double value) { component.select.sphere_rim = value; },
+      {"Weights fall smoothly to 0 over so much within `sphere.radius`.", "length", "not used"});
+}
+
 bool equal(const Vec3& a, const Vec3& b) {
   return a.a[0] == b.a[0] && a.a[1] == b.a[1] && a.a[2] == b.a[2];
 }
@@ -171,6 +179,7 @@ Keys particle_keys() {
           {"The particle types drawn as this component."}),
   };
   append(keys, set_keys("component.select", &Component::select));
+  keys.push_back(rim_key());
   append(keys, set_keys("component.exclude", &Component::exclude));
   append(keys, placement_keys());
   return keys;

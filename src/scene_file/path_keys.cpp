@@ -40,13 +40,28 @@ bool collect(const toml::table& table, const std::string& prefix,
              std::map<std::string, std::string>& values) {
   for (const auto& [name, node] : table) {
     const std::string key = prefix + std::string(name.str());
-    if (key == "frame") continue;
+    if (key == "frame" || key == "ease" || key == "dwell") continue;
     if (const toml::table* inner = node.as_table()) {
       if (!collect(*inner, key + ".", values)) return false;
       continue;
     }
     const std::optional<std::string> value = write_value(node);
     if (!value || !values.emplace(full_key(key), *value).second) return false;
+  }
+  return true;
+}
+
+// How the keys go through the keyframe. False: a value of another kind.
+bool read_speed(const toml::table& table, Keyframe& keyframe) {
+  if (const toml::node* const ease = table.get("ease")) {
+    const std::optional<bool> is_eased = boolean().read(*ease);
+    if (!is_eased) return false;
+    keyframe.is_eased = *is_eased;
+  }
+  if (const toml::node* const dwell = table.get("dwell")) {
+    const std::optional<double> frames = number(at_least(0)).read(*dwell);
+    if (!frames) return false;
+    keyframe.dwell = *frames;
   }
   return true;
 }
@@ -60,7 +75,8 @@ std::optional<Keyframe> read_keyframe(const toml::node& node) {
   range.at_least = 0;
   const std::optional<double> place = number(range).read(*frame);
   Keyframe keyframe;
-  if (!place || !collect(*table, "", keyframe.values) || keyframe.values.empty()) {
+  const bool has_speed = read_speed(*table, keyframe);
+  if (!place || !has_speed || !collect(*table, "", keyframe.values) || keyframe.values.empty()) {
     return std::nullopt;
   }
   keyframe.frame = *place;
@@ -74,7 +90,8 @@ std::optional<std::vector<Keyframe>> read_keyframes(const toml::node& node) {
   for (const toml::node& element : *array) {
     const std::optional<Keyframe> keyframe = read_keyframe(element);
     const bool is_in_order =
-        keyframe && (keyframes.empty() || keyframes.back().frame < keyframe->frame);
+        keyframe &&
+        (keyframes.empty() || keyframes.back().frame + keyframes.back().dwell < keyframe->frame);
     if (!is_in_order) return std::nullopt;
     keyframes.push_back(*keyframe);
   }
@@ -85,6 +102,8 @@ std::string write_keyframes(const std::vector<Keyframe>& keyframes) {
   std::vector<std::string> tables;
   for (const Keyframe& keyframe : keyframes) {
     std::string table = "frame = " + write_number(keyframe.frame);
+    if (keyframe.is_eased) table += ", ease = true";
+    if (keyframe.dwell > 0) table += ", dwell = " + write_number(keyframe.dwell);
     for (const auto& [key, value] : keyframe.values)
       table += fmt::format(", {} = {}", write_text(key), value);
     tables.push_back(fmt::format("  {{ {} }},\n", table));
@@ -115,7 +134,7 @@ std::string write_points(const std::vector<Vec3>& points) {
 ValueType<std::vector<Keyframe>> keyframes() {
   return {
       "tables in increasing order of frame, each with frame, a number >= 0, and one or more keys "
-      "of a scene",
+      "of a scene; also ease, true or false, and dwell, a number >= 0",
       read_keyframes, write_keyframes};
 }
 
@@ -125,7 +144,8 @@ ValueType<std::vector<Vec3>> points() {
 }
 
 const std::vector<std::string> orbit_paths = {"path.orbit.degrees", "path.orbit.center",
-                                              "path.orbit.axis", "path.orbit.radius"};
+                                              "path.orbit.axis", "path.orbit.radius",
+                                              "path.orbit.ease"};
 const std::vector<std::string> fly_paths = {"path.fly.through", "path.fly.look_at",
                                             "path.fly.ease"};
 
@@ -172,6 +192,10 @@ Key fly_key(const std::string& path, const ValueType<V>& type, Member FlyThrough
       [member](PathSettings& settings, const V& value) { fly_of(settings).*member = value; }, text);
 }
 
+ValueType<bool> ease() {
+  return choice<bool>({{"none", false}, {"both", true}});
+}
+
 Keys orbit_keys() {
   return {
       orbit_key(
@@ -184,6 +208,8 @@ Keys orbit_keys() {
                 {"The direction of the axis.", "", "the camera's sky"}),
       orbit_key("path.orbit.radius", number(more_than(0)), &Orbit::radius,
                 {"The camera's distance from the center.", "length", "as the camera stands"}),
+      orbit_key("path.orbit.ease", ease(), &Orbit::is_eased,
+                {"`both`: it starts and ends slowly.", "", "`\"none\"`"}),
   };
 }
 
@@ -194,10 +220,131 @@ Keys fly_keys() {
                "length", "no fly-through; required for one"}),
       fly_key("path.fly.look_at", vector(), &FlyThrough::look_at,
               {"What it looks at.", "length", "ahead, along the curve"}),
-      fly_key("path.fly.ease", choice<bool>({{"none", false}, {"both", true}}),
-              &FlyThrough::is_eased,
+      fly_key("path.fly.ease", ease(), &FlyThrough::is_eased,
               {"`both`: the flight speeds up at its start and slows down at its end.", "",
                "`\"none\"`"}),
+  };
+}
+
+// A point, or a word for one that is found: then nothing.
+ValueType<std::optional<Vec3>> point_or(const std::string& word) {
+  using Place = std::optional<Vec3>;
+  return {"[x, y, z], each a finite number, or \"" + word + "\"",
+          [word](const toml::node& node) -> std::optional<Place> {
+            if (node.value_exact<std::string>() == word) return std::optional<Place>(std::in_place);
+            const std::optional<Vec3> point = vector().read(node);
+            return point ? std::optional<Place>(std::in_place, *point) : std::nullopt;
+          },
+          [word](const Place& point) { return point ? vector().write(*point) : write_text(word); }};
+}
+
+template <class V>
+Key follow_key(const std::string& name, const ValueType<V>& type,
+               std::function<std::optional<V>(const Follow&)> get,
+               std::function<void(Follow&, const V&)> set, const Text& text) {
+  return key<PathSettings, V>(
+      "path.follow." + name, type,
+      [get](const PathSettings& path) {
+        return path.follow ? get(*path.follow) : std::optional<V>();
+      },
+      [set](PathSettings& path, const V& value) {
+        set(path.follow ? *path.follow : path.follow.emplace(), value);
+      },
+      text);
+}
+
+Keys followed_keys() {
+  using Place = std::optional<Vec3>;
+  constexpr int most_haloes = 2147483647;
+  return {
+      excluding(follow_key<int>(
+                    "halo", integer(0, most_haloes), [](const Follow& f) { return f.halo; },
+                    [](Follow& f, int value) {
+                      f.halo = value;
+                      f.sphere_center.reset();
+                      f.sphere_radius.reset();
+                    },
+                    {"The camera follows this halo; "
+                     "see movies.md.",
+                     "", "none"}),
+                {"path.follow.sphere.center", "path.follow.sphere.radius"}),
+      follow_key<std::string>(
+          "catalog", text(),
+          [](const Follow& f) {
+            return f.catalog.empty() ? std::nullopt : std::optional(f.catalog);
+          },
+          [](Follow& f, const std::string& value) { f.catalog = value; },
+          {"The catalog for `halo`.", "", "the snapshot's group ids, else a catalog beside it"}),
+      follow_key<Place>(
+          "sphere.center", point_or("densest"),
+          [](const Follow& f) {
+            return f.halo ? std::nullopt : std::optional<Place>(std::in_place, f.sphere_center);
+          },
+          [](Follow& f, const Place& value) {
+            f.halo.reset();
+            f.sphere_center = value;
+          },
+          {"The camera follows what is innermost in this sphere.", "length", "none"}),
+      follow_key<double>(
+          "sphere.radius", number(more_than(0)), [](const Follow& f) { return f.sphere_radius; },
+          [](Follow& f, double value) {
+            f.halo.reset();
+            f.sphere_radius = value;
+          },
+          {"The sphere's radius.", "length", "200 times as dense as the mean"}),
+  };
+}
+
+Keys follow_keys() {
+  Keys keys = followed_keys();
+  append(keys,
+         {
+             follow_key<double>(
+                 "snapshot", number(), [](const Follow& f) { return f.snapshot; },
+                 [](Follow& f, double value) { f.snapshot = value; },
+                 {"The `time.index` at which it is looked up.", "", "the last"}),
+             follow_key<double>(
+                 "size", number(more_than(0)), [](const Follow& f) { return f.size; },
+                 [](Follow& f, double value) { f.size = value; },
+                 {"The picture's shorter side.", "radii", "4"}),
+             follow_key<Follow::Up>(
+                 "up",
+                 choice<Follow::Up>({{"camera", Follow::Up::camera},
+                                     {"angular_momentum", Follow::Up::angular_momentum}}),
+                 [](const Follow& f) { return f.up; },
+                 [](Follow& f, Follow::Up value) { f.up = value; },
+                 {"`angular_momentum`: its own; the path turns with it.", "", "`\"camera\"`"}),
+         });
+  return keys;
+}
+
+template <class V>
+Key approach_key(const std::string& name, const ValueType<V>& type,
+                 std::function<std::optional<V>(const Approach&)> get,
+                 std::function<void(Approach&, const V&)> set, const Text& text) {
+  return key<PathSettings, V>(
+      "path.approach." + name, type,
+      [get](const PathSettings& path) {
+        return path.approach ? get(*path.approach) : std::optional<V>();
+      },
+      [set](PathSettings& path, const V& value) {
+        set(path.approach ? *path.approach : path.approach.emplace(), value);
+      },
+      text);
+}
+
+Keys approach_keys() {
+  using Place = std::optional<Vec3>;
+  return {
+      approach_key<Place>(
+          "to", point_or("followed"),
+          [](const Approach& a) { return std::optional<Place>(std::in_place, a.to); },
+          [](Approach& a, const Place& value) { a.to = value; },
+          {"The camera goes here from what it shows.", "length", "none"}),
+      approach_key<double>(
+          "width", number(more_than(0)), [](const Approach& a) { return a.width; },
+          [](Approach& a, double value) { a.width = value; },
+          {"Across the picture in the end.", "length", "as `path.follow.size` says"}),
   };
 }
 
@@ -221,6 +368,8 @@ Keys path_keys() {
   };
   append(keys, orbit_keys());
   append(keys, fly_keys());
+  append(keys, follow_keys());
+  append(keys, approach_keys());
   append(keys,
          {
              key<PathSettings, std::vector<Keyframe>>(
@@ -242,9 +391,36 @@ Keys path_keys() {
                                              {"direction", PathSettings::Look::direction}}),
                  &PathSettings::look,
                  {"What moves between keyframes: the look-at point, or the view's direction."}),
+             key("path.max_turn_rate", number(more_than(0)), &PathSettings::max_turn_rate,
+                 {"The view turns no faster: it looks ahead.", "degrees/s", "no limit"}),
          });
   return keys;
 }
+
+namespace {
+
+Range shutter_range() {
+  Range range = more_than(0);
+  range.at_most = 1;
+  return range;
+}
+
+template <class V>
+Key blur_key(const std::string& name, const ValueType<V>& type, V MotionBlur::*member,
+             const Text& text) {
+  return key<MovieSettings, V>(
+      "movie.motion_blur." + name, type,
+      [member](const MovieSettings& movie) {
+        return movie.motion_blur ? std::optional<V>((*movie.motion_blur).*member) : std::nullopt;
+      },
+      [member](MovieSettings& movie, const V& value) {
+        if (!movie.motion_blur) movie.motion_blur.emplace();
+        (*movie.motion_blur).*member = value;
+      },
+      text);
+}
+
+}  // namespace
 
 Keys movie_keys() {
   return {
@@ -254,14 +430,33 @@ Keys movie_keys() {
       key("movie.frames_per_second", number(between(0.01, 1000)), &MovieSettings::frames_per_second,
           {"The film's speed.", "1/s"}),
       key("movie.codec",
-          choice<Codec>({{"h264", Codec::h264}, {"h265", Codec::h265}, {"vp9", Codec::vp9}}),
+          choice<Codec>({{"h264", Codec::h264},
+                         {"h265", Codec::h265},
+                         {"vp9", Codec::vp9},
+                         {"av1", Codec::av1},
+                         {"prores", Codec::prores},
+                         {"dnxhr", Codec::dnxhr},
+                         {"hap", Codec::hap},
+                         {"ffv1", Codec::ffv1}}),
           &MovieSettings::codec,
-          {"How the film is encoded.", "", "`\"vp9\"` for .webm, else `\"h264\"`"}),
+          {"How the film is encoded; see movies.md.", "", "`\"vp9\"` for .webm, else `\"h264\"`"}),
       key("movie.rate_factor", integer(0, 51), &MovieSettings::rate_factor,
           {"The encoder's constant rate factor: 18 looks lossless; 6 more halve the file."}),
       key("movie.bits", bits({8, 10}), &MovieSettings::bits,
           {"Bits per channel. 10 avoid steps in faint light; many players cannot show 10-bit "
            "`h264`."}),
+      key<MovieSettings, std::string>(
+          "movie.audio", text(),
+          [](const MovieSettings& movie) {
+            return movie.audio.empty() ? std::nullopt : std::optional(movie.audio);
+          },
+          [](MovieSettings& movie, const std::string& value) { movie.audio = value; },
+          {"A file whose sound lies under the film.", "", "none"}),
+      blur_key<double>(
+          "shutter", number(shutter_range()), &MotionBlur::shutter,
+          {"Frames are means over this part of their time.", "", "no motion blur, or 0.5"}),
+      blur_key<int>("samples", integer(2, 1000), &MotionBlur::samples,
+                    {"Pictures for a frame.", "", "no motion blur, or 8"}),
   };
 }
 

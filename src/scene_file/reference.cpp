@@ -43,7 +43,12 @@ std::string value_of(const Key& key) {
       {find_key("finish.title.at")->expected, "a place"},
   };
   const auto found = shorter.find(key.expected);
-  const std::string value = found == shorter.end() ? key.expected : found->second;
+  std::string value = found == shorter.end() ? key.expected : found->second;
+  const std::string between_words = "\" or \"";
+  for (std::size_t at = value.find(between_words); at != std::string::npos;
+       at = value.find(between_words, at)) {
+    value.replace(at, between_words.size(), "\", \"");
+  }
   return key.unit.empty() ? value : value + "; " + key.unit;
 }
 

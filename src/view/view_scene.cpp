@@ -10,6 +10,7 @@
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "common/words.h"
+#include "film/follow/find_followed.h"
 #include "film/path/film_path.h"
 #include "open_scene/input_files.h"
 #include "scene_file/file_names.h"
@@ -153,7 +154,7 @@ Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden) {
 
 Scene at_frame(const Scene& scene, int frame) {
   std::vector<std::string> ignored;
-  const FilmPath path(scene, ignored);
+  const FilmPath path(scene, ignored, find_followed);
   if (frame >= path.frame_count()) {
     throw UsageError(
         fmt::format("the film: found frame {}, expected one below {}", frame, path.frame_count()));

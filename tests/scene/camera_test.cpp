@@ -222,5 +222,39 @@ TEST(Camera, ShowsSmallNumbersInItsMessages) {
   EXPECT_THAT(message_for(camera), HasSubstr("(0, 0, 1e-12)"));
 }
 
+Camera dome_camera(double tilt) {
+  Camera camera = simple_camera();
+  camera.projection = Projection::fisheye;
+  camera.field_of_view_degrees = 180;
+  camera.dome_tilt_degrees = tilt;
+  return camera;
+}
+
+TEST(Dome, HasItsFrontAtTheBottomAndTheSkyInTheMiddle) {
+  const CameraFrame frame = make_camera_frame(dome_camera(0), 100, 100);
+  EXPECT_NEAR(mag(frame.forward - Vec3{{0, 1, 0}}), 0, 1e-12);
+  EXPECT_NEAR(mag(frame.down - Vec3{{0, 0, 1}}), 0, 1e-12);
+  EXPECT_NEAR(mag(cross(frame.right, frame.down) - frame.forward), 0, 1e-12);
+}
+
+TEST(Dome, ShowsTheLookAtPointSoFarAboveItsRim) {
+  for (const double tilt : {-10.0, 0.0, 30.0, 90.0}) {
+    const CameraFrame frame = make_camera_frame(dome_camera(tilt), 100, 100);
+    const Vec3 ahead = {{0, 0, 1}};
+    const double from_zenith = std::acos(dot(frame.forward, ahead)) * 180 / pi;
+    EXPECT_NEAR(from_zenith, 90 - tilt, 1e-9);
+    EXPECT_GE(dot(frame.down, ahead), -1e-12);
+    EXPECT_NEAR(dot(frame.right, ahead), 0, 1e-12);
+  }
+}
+
+TEST(Dome, IsAFisheye) {
+  Camera camera = dome_camera(10);
+  camera.projection = Projection::perspective;
+  camera.field_of_view_degrees = 60;
+  EXPECT_THAT([&] { make_camera_frame(camera, 100, 100); },
+              ::testing::ThrowsMessage<UsageError>(HasSubstr("camera.dome_tilt")));
+}
+
 }  // namespace
 }  // namespace splotchcl

@@ -38,6 +38,9 @@ Scene full_scene() {
   scene.components[0].color.field = scene.components[0].intensity.field = "U";
   scene.time.pattern = "snap_%03d";
   scene.path.orbit.emplace();
+  scene.path.follow.emplace();
+  scene.path.approach.emplace();
+  scene.movie.motion_blur.emplace();
   scene.path.fly.emplace().through.resize(2);
   return scene;
 }

@@ -1,5 +1,10 @@
 #include "film/frames/film_drawer.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "finish/tone.h"
@@ -44,20 +49,74 @@ Scene FilmDrawer::with_known_tone(int frame, Scene scene) const {
   return scene;
 }
 
-RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
+namespace {
+
+void add(const Image& image, Image& sum) {
+  for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+    sum.pixels[i] += image.pixels[i];
+}
+
+void scale(float factor, Image& image) {
+  for (float& value : image.pixels)
+    value *= factor;
+}
+
+}  // namespace
+
+DrawnFrame FilmDrawer::draw_mean(int frame, const Drawings& drawings, OtherScenes& other_scenes) {
+  std::optional<DrawnFrame> mean;
+  for (const Drawing& drawing : drawings) {
+    const Scene scene = with_known_tone(frame, drawing.scene);
+    DrawnFrame drawn = drawer_.draw(scene, *drawing.snapshot(), other_scenes);
+    if (!mean) {
+      mean = std::move(drawn);
+      continue;
+    }
+    for (std::size_t i = 0; i < mean->pictures.size(); ++i) {
+      add(drawn.pictures[i].image, mean->pictures[i].image);
+      add(drawn.pictures[i].light, mean->pictures[i].light);
+    }
+    mean->stats.total_seconds += drawn.stats.total_seconds;
+  }
+  if (drawings.size() == 1) return std::move(*mean);
+  for (Picture& picture : mean->pictures) {
+    scale(1 / static_cast<float>(drawings.size()), picture.image);
+    scale(1 / static_cast<float>(drawings.size()), picture.light);
+  }
+  return std::move(*mean);
+}
+
+namespace {
+
+// "HH:MM:SS:FF" of whole frames in a second, as editors count them; none where a second has more
+// than two digits count, or less than one.
+std::string timecode(int frame, double frames_per_second) {
+  const auto rate = static_cast<int>(std::lround(frames_per_second));
+  constexpr int most = 99, hours_of_day = 24;
+  if (rate < 1 || rate > most) return {};
+  const int seconds = frame / rate;
+  return fmt::format("{:02}:{:02}:{:02}:{:02}", seconds / 3600 % hours_of_day, seconds / 60 % 60,
+                     seconds % 60, frame % rate);
+}
+
+}  // namespace
+
+RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Drawings& drawings,
                              OtherScenes& other_scenes, const std::filesystem::path& output,
                              const std::function<void()>& before_writing) {
-  DrawnFrame drawn = drawer_.draw(with_known_tone(frame, scene), snapshot, other_scenes);
+  DrawnFrame drawn = draw_mean(frame, drawings, other_scenes);
   before_writing();
   tell(drawn.notes);
   tell_of_bad_particles(drawn);
   finish();
   if (output.empty()) return drawn.stats;
-  writing_ = in_background(
-      [output, pictures = std::move(drawn.pictures),
-       options = image_file_options(scene, {{"splotchcl:frame", std::to_string(frame)}})] {
-        write_pictures(output, pictures, options);
-      });
+  std::map<std::string, std::string> metadata = {{"splotchcl:frame", std::to_string(frame)}};
+  const std::string code = timecode(frame, scene.movie.frames_per_second);
+  if (!code.empty()) metadata["splotchcl:timecode"] = code;
+  writing_ = in_background([output, pictures = std::move(drawn.pictures),
+                            options = image_file_options(scene, std::move(metadata))] {
+    write_pictures(output, pictures, options);
+  });
   return drawn.stats;
 }
 

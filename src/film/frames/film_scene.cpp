@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "common/file_identity.h"
+#include "film/follow/find_followed.h"
+#include "film/frames/suggest_film.h"
 #include "load/passes.h"
 #include "sequence/list_sequence.h"
 #include "snapshot/snapshot_files.h"
@@ -50,7 +52,8 @@ InputFiles film_inputs(const Scene& scene, const FilmPath& path) {
   inputs.add_snapshots(scene);
   for (int frame = 0; frame < path.frame_count(); ++frame) {
     Scene shown = path.scene_at(scene, frame);
-    shown.path = {};  // its frames are told one by one
+    shown.path = {};            // its frames are told one by one
+    shown.movie.audio.clear();  // no frame depends on it
     inputs.add_named_files(shown);
   }
   return inputs;
@@ -69,7 +72,9 @@ std::string film_manifest(Scene scene, const FilmPath& path, bool by_reference,
       fmt::format("splotchcl {}, {}\n", SPLOTCHCL_VERSION, by_reference ? "reference" : "device");
   for (const std::string& input : lines_of(film_inputs(scene, path), marks))
     text += "input " + input + "\n";
+  const std::optional<MotionBlur> blur = scene.movie.motion_blur;
   scene.movie = {};
+  scene.movie.motion_blur = blur;
   scene.path = {};
   text += format_scene(scene);
   for (int frame = 0; frame < path.frame_count(); ++frame)
@@ -128,7 +133,7 @@ std::string suggest_path(Scene& scene) {
 }  // namespace
 
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
-                     const std::shared_ptr<Communicator>& ranks)
+                     const std::shared_ptr<Communicator>& ranks, const FilmTarget& target)
     : ranks_(ranks) {
   WatchedFiles opening;  // a scene file may change later on: it is read only once
   opening.add(path);
@@ -142,7 +147,9 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
-  path_.emplace(scene_, notes_);
+  // A scene file says itself what its film is.
+  if (opened.suggested || !target.name.empty()) suggest_film(target, *snapshot_at(scene_), scene_);
+  path_.emplace(scene_, notes_, find_followed);
   path_->check(scene_);
   watch_files();
   check_moments();

@@ -13,6 +13,7 @@
 #include "pictures/other_scenes.h"
 #include "sequence/film_snapshots.h"
 #include "splotchcl/communicator.h"
+#include "splotchcl/film.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 
@@ -37,8 +38,9 @@ class FilmScene {
  public:
   // Checks every frame of the path. Reads particles only to choose a camera for a scene that has
   // none. All of `ranks`, where there are some, make the same calls, within agree().
+  // `target` is as in FilmOptions.
   FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
-            const std::shared_ptr<Communicator>& ranks = nullptr);
+            const std::shared_ptr<Communicator>& ranks = nullptr, const FilmTarget& target = {});
 
   // First checks what frames name: fields, palettes, files, texts. Then decides whatever the scene
   // leaves to the data, from the first frame, or from a later one for a component of which the
@@ -48,6 +50,9 @@ class FilmScene {
   const Scene& scene() const { return scene_; }
   const FilmPath& path() const { return *path_; }
   Scene scene_at(int frame) const { return path_->scene_at(scene_, frame); }
+  std::vector<Scene> blurred_scenes(int frame) const {
+    return path_->blurred_scenes(scene_, frame);
+  }
   std::shared_ptr<const Snapshot> snapshot_at(const Scene& scene);
   OtherScenes& other_scenes() { return other_scenes_; }
   // Throws DataError where a file that frames are drawn from is no longer what it was when the

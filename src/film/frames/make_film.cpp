@@ -8,7 +8,9 @@
 #include "common/output_files.h"
 #include "film/frames/film_drawer.h"
 #include "film/frames/film_scene.h"
+#include "film/movie/codecs.h"
 #include "film/movie/encoder.h"
+#include "film/movie/film_layout.h"
 #include "film/movie/frame_files.h"
 #include "film/movie/numbered_files.h"
 #include "pictures/other_scenes.h"
@@ -34,6 +36,10 @@ std::vector<std::string> suffixes_of(const Scene& scene) {
 // Everything that the pictures can fail by is tried before anything is read.
 void check_pictures(const FrameFiles& files, const Scene& scene) {
   files.check();
+  if (!files.is_film() && !scene.movie.audio.empty()) {
+    throw UsageError("movie.audio: found " + scene.movie.audio +
+                     " for numbered images, which have no sound, expected a film such as film.mp4");
+  }
   for (const PictureSize& size : sizes_of(scene)) {
     if (files.is_film()) {
       check_film(files.film(size.suffix), scene.movie, size.width, size.height);
@@ -60,8 +66,8 @@ std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path, int bits
 }
 
 // Between drawing and joining, frames of a film of 10 bits have 16.
-int frame_bits(const MovieSettings& movie) {
-  return movie.bits == 10 ? 16 : 8;
+int frame_bits(const std::filesystem::path& film, const MovieSettings& movie) {
+  return film_bits(film, movie) == 10 ? 16 : 8;
 }
 
 // One film that is being made.
@@ -70,7 +76,7 @@ class Film {
   Film(const FilmOptions& options, const FilmReport& report)
       : options_(options),
         report_(report),
-        scene_(options.scene, options.settings, options.ranks),
+        scene_(options.scene, options.settings, options.ranks, options.target),
         start_(scene_.scene_at(0)),
         files_(options.output, suffixes_of(start_)) {
     if (has_files()) check_pictures(files_, start_);
@@ -120,7 +126,7 @@ class Film {
 
   // Frames of a film have as many bits as the film needs, images as many as the scene says.
   Scene as_stored(Scene scene) const {
-    if (files_.is_film()) scene.image.bits = frame_bits(start_.movie);
+    if (files_.is_film()) scene.image.bits = frame_bits(options_.output, start_.movie);
     return scene;
   }
 
@@ -208,12 +214,23 @@ class Film {
   RenderStats draw_frame(FilmDrawer& drawer, int frame, const Scene& scene,
                          const std::filesystem::path& output) {
     try {
-      return drawer.draw(frame, scene, *scene_.snapshot_at(scene), scene_.other_scenes(), output,
+      return drawer.draw(frame, scene, drawings_of(frame, scene), scene_.other_scenes(), output,
                          [&] { agree(options_.ranks.get(), [&] { scene_.check_files(); }); });
     } catch (const Error&) {
       if (!options_.ranks) scene_.check_files();
       throw;
     }
+  }
+
+  // One, or those of the time that the shutter is open.
+  FilmDrawer::Drawings drawings_of(int frame, const Scene& scene) {
+    std::vector<Scene> scenes = scene_.blurred_scenes(frame);
+    if (scenes.empty()) scenes = {scene};
+    FilmDrawer::Drawings drawings;
+    for (const Scene& drawn : scenes) {
+      drawings.push_back({as_stored(drawn), [this, drawn] { return scene_.snapshot_at(drawn); }});
+    }
+    return drawings;
   }
 
   // Somebody else may tidy up where they lie.
@@ -271,15 +288,22 @@ class Film {
 
   void join() const {
     status("joining the frames");
+    const FilmLayout layout = layout_of(scene_.scene_at(frames_.front()));
+    if (report_.note && !can_tell(options_.output, layout)) {
+      report_.note(options_.output.string() +
+                   ": such films cannot say that they are panoramas, and play flat; .mp4 and .mov "
+                   "can");
+    }
     for (const PictureSize& size : sizes_of(start_)) {
       files_.remove_unfinished_film(size.suffix);
-      Encoder encoder(files_.film(size.suffix), start_.movie, size.width, size.height);
+      Encoder encoder(files_.film(size.suffix), start_.movie, size.width, size.height, layout);
       for (std::size_t i = 0; i < frames_.size(); ++i) {
         if (report_.progress) {
           report_.progress("joining the frames",
                            static_cast<double>(i) / static_cast<double>(frames_.size()));
         }
-        encoder.add(read_bytes(files_.picture(frames_[i], size.suffix), frame_bits(start_.movie)));
+        encoder.add(read_bytes(files_.picture(frames_[i], size.suffix),
+                               frame_bits(options_.output, start_.movie)));
       }
       encoder.finish();
     }

@@ -17,6 +17,7 @@
 #include "common/child_process.h"
 #include "common/reason.h"
 #include "common/words.h"
+#include "film/movie/codecs.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -26,51 +27,32 @@ namespace {
 const std::map<std::string, std::string> containers = {
     {".mp4", "mp4"}, {".mov", "mov"}, {".mkv", "matroska"}, {".webm", "webm"}};
 
-Codec codec_of(const std::filesystem::path& path, const MovieSettings& settings) {
-  return settings.codec.value_or(lower_ending(path) == ".webm" ? Codec::vp9 : Codec::h264);
-}
-
-const char* encoder_of(Codec codec) {
-  switch (codec) {
-    case Codec::h264:
-      return "libx264";
-    case Codec::h265:
-      return "libx265";
-    case Codec::vp9:
-      break;
-  }
-  return "libvpx-vp9";
-}
-
-// The number of threads is part of what an encoder's bytes depend on.
-std::vector<std::string> codec_arguments(Codec codec, int rate_factor) {
-  const std::string quality = std::to_string(rate_factor);
-  switch (codec) {
-    case Codec::h264:
-      return {"-c:v", encoder_of(codec), "-crf", quality, "-threads", "4"};
-    case Codec::h265:
-      return {"-c:v",         encoder_of(codec),
-              "-crf",         quality,
-              "-tag:v",       "hvc1",
-              "-x265-params", "log-level=error:pools=4:frame-threads=2"};
-    case Codec::vp9:
-      return {"-c:v", encoder_of(codec), "-crf", quality, "-b:v", "0", "-threads", "4"};
-  }
-  return {};
-}
-
-constexpr const char* ten_bits = "yuv420p10le";
-
-// ffmpeg's own words on the encoder tell which pixels it takes.
-void check_ten_bits(const std::filesystem::path& path, Codec codec) {
+// ffmpeg's own words on an encoder, which tell the pixels that it takes.
+std::string encoder_help(const char* encoder) {
   const ScratchText help;
-  ChildProcess ffmpeg({"ffmpeg", "-hide_banner", "-h", std::string("encoder=") + encoder_of(codec)},
+  ChildProcess ffmpeg({"ffmpeg", "-hide_banner", "-h", std::string("encoder=") + encoder},
                       {-1, help.descriptor(), -1});
   ffmpeg.wait(std::chrono::seconds(10), [&] { return help.text().size(); });
-  if (help.text().find(ten_bits) != std::string::npos) return;
-  throw DataError(path.string() + ": found an ffmpeg whose " + encoder_of(codec) +
+  return help.text();
+}
+
+void check_encoder(const std::filesystem::path& path, const CodecFacts& facts, int bits) {
+  const std::string help = encoder_help(facts.encoder);
+  const bool is_everywhere =
+      facts.codec == Codec::h264 || facts.codec == Codec::h265 || facts.codec == Codec::vp9;
+  if (!is_everywhere && help.find(std::string("Encoder ") + facts.encoder) == std::string::npos) {
+    throw DataError(path.string() + ": found an ffmpeg without the encoder " + facts.encoder +
+                    ", expected one that has it; choose another movie.codec");
+  }
+  if (bits == 8 || help.find(facts.pixels_of_ten_bits) != std::string::npos) return;
+  throw DataError(path.string() + ": found an ffmpeg whose " + facts.encoder +
                   " has no 10 bits, expected one that has; leave out movie.bits, or choose another "
                   "movie.codec");
+}
+
+// Those of MP4 and QuickTime.
+bool has_boxes(const std::filesystem::path& path) {
+  return lower_ending(path) == ".mp4" || lower_ending(path) == ".mov";
 }
 
 // ffmpeg takes what stands before a colon for a protocol.
@@ -78,31 +60,59 @@ std::string as_file(const std::filesystem::path& path) {
   return "file:" + path.string();
 }
 
+// Sound is as long as the film: silent where it ends earlier.
+std::vector<std::string> sound_of(const std::filesystem::path& path, const CodecFacts& facts) {
+  std::vector<std::string> words = {"-map", "0:v:0",    "-map",      "1:a:0",    "-af",
+                                    "apad", "-flags:a", "+bitexact", "-shortest"};
+  const std::vector<std::string> codec = sound_arguments(path, facts);
+  words.insert(words.end(), codec.begin(), codec.end());
+  return words;
+}
+
+// Matroska has words of its own for two eyes.
+std::vector<std::string> eyes_of(const std::filesystem::path& path, const FilmLayout& layout) {
+  if (layout.eyes == FilmLayout::Eyes::one || has_boxes(path)) return {};
+  const bool is_beside = layout.eyes == FilmLayout::Eyes::side_by_side;
+  return {"-metadata:s:v:0",
+          std::string("stereo_mode=") + (is_beside ? "left_right" : "top_bottom")};
+}
+
 std::vector<std::string> arguments(const std::filesystem::path& path, const MovieSettings& settings,
-                                   int width, int height, const std::filesystem::path& unfinished) {
-  std::vector<std::string> all = {
-      "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-f", "rawvideo", "-pixel_format",
-      settings.bits == 10 ? "rgb48le" : "rgb24", "-video_size", fmt::format("{}x{}", width, height),
-      "-framerate", fmt::format("{}", settings.frames_per_second), "-i", "pipe:0", "-an",
-      // The colours of high-definition television, and said to be those: without, players
-      // guess from the picture's size.
-      "-vf",
-      std::string("scale=in_range=full:out_range=limited:out_color_matrix=bt709:"
-                  "flags=bicubic+accurate_rnd+full_chroma_int+bitexact,format=") +
-          (settings.bits == 10 ? ten_bits : "yuv420p"),
-      "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range",
-      "tv"};
-  const std::vector<std::string> codec =
-      codec_arguments(codec_of(path, settings), settings.rate_factor);
-  all.insert(all.end(), codec.begin(), codec.end());
-  // No times and versions in the file.
-  for (const char* const word : {"-flags:v", "+bitexact", "-fflags", "+bitexact", "-map_metadata",
-                                 "-1", "-movflags", "+faststart", "-f"}) {
-    all.emplace_back(word);
+                                   int width, int height, const FilmLayout& layout,
+                                   const std::filesystem::path& unfinished) {
+  const CodecFacts& facts = codec_facts(path, settings);
+  const int bits = film_bits(path, settings);
+  std::vector<std::string> all = {"ffmpeg",
+                                  "-nostdin",
+                                  "-hide_banner",
+                                  "-loglevel",
+                                  "error",
+                                  "-f",
+                                  "rawvideo",
+                                  "-pixel_format",
+                                  bits == 10 ? "rgb48le" : "rgb24",
+                                  "-video_size",
+                                  fmt::format("{}x{}", width, height),
+                                  "-framerate",
+                                  fmt::format("{}", settings.frames_per_second),
+                                  "-i",
+                                  "pipe:0"};
+  const auto add = [&all](const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  if (settings.audio.empty()) {
+    add({"-an"});
+  } else {
+    add({"-i", as_file(settings.audio)});
   }
-  all.push_back(containers.at(lower_ending(path)));
-  all.emplace_back("-y");
-  all.push_back(as_file(unfinished));
+  add(color_arguments(facts, bits));
+  add(codec_arguments(facts, settings, bits));
+  if (!settings.audio.empty()) add(sound_of(path, facts));
+  // No times and versions in the file.
+  add({"-flags:v", "+bitexact", "-fflags", "+bitexact", "-map_metadata", "-1"});
+  add(eyes_of(path, layout));
+  add({"-movflags", "+faststart", "-f", containers.at(lower_ending(path)), "-y",
+       as_file(unfinished)});
   return all;
 }
 
@@ -138,25 +148,65 @@ bool is_film_path(const std::filesystem::path& path) {
   return containers.count(lower_ending(path)) > 0;
 }
 
+namespace {
+
+void check_ending(const std::filesystem::path& path, const CodecFacts& facts) {
+  const std::vector<std::string>& endings = facts.endings;
+  if (std::count(endings.begin(), endings.end(), lower_ending(path)) > 0) return;
+  throw UsageError(
+      fmt::format("{}: found a film of {}, which is held by {}; choose such a name, or "
+                  "another movie.codec",
+                  path.string(), facts.name, fmt::join(endings, ", ")));
+}
+
+void check_sides(const std::filesystem::path& path, const CodecFacts& facts, int width,
+                 int height) {
+  const int step = facts.side_step;
+  if (width % step == 0 && height % step == 0) return;
+  throw UsageError(fmt::format(
+      "{}: found pictures of {}x{} pixels, expected {}, as films of {} need; change image.size, or "
+      "write numbered images such as frame_%04d.png",
+      path.string(), width, height,
+      step == 2 ? "even numbers" : fmt::format("multiples of {}", step), facts.name));
+}
+
+// ffmpeg finds sound in it.
+void check_sound(const std::string& audio) {
+  const ScratchText messages;
+  ChildProcess ffmpeg({"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-i",
+                       as_file(audio), "-map", "0:a:0", "-t", "0.1", "-f", "null", "-"},
+                      {-1, -1, messages.descriptor()});
+  const auto end = ffmpeg.wait(std::chrono::seconds(60), [&] { return messages.text().size(); });
+  if (end == ChildProcess::End::success) return;
+  throw DataError(
+      fmt::format("{}: found no sound that ffmpeg can read, expected a file such as "
+                  "music.wav ({})",
+                  audio, one_line(messages.text())));
+}
+
+}  // namespace
+
 void check_film(const std::filesystem::path& path, const MovieSettings& settings, int width,
                 int height) {
-  if (lower_ending(path) == ".webm" && codec_of(path, settings) != Codec::vp9) {
-    throw UsageError(path.string() +
-                     ": .webm holds VP9 only; leave out movie.codec, or choose .mp4 or .mkv");
-  }
-  if (width % 2 != 0 || height % 2 != 0) {
-    throw UsageError(fmt::format(
-        "{}: found pictures of {}x{} pixels, expected even numbers, as films need; change "
-        "image.size, or write numbered images such as frame_%04d.png",
-        path.string(), width, height));
+  const CodecFacts& facts = codec_facts(path, settings);
+  check_ending(path, facts);
+  check_sides(path, facts, width, height);
+  if (settings.bits == 10 && facts.pixels_of_ten_bits == nullptr) {
+    throw UsageError(path.string() + ": found movie.bits = 10 with " + facts.name +
+                     ", which has 8; leave out movie.bits");
   }
   if (find_program("ffmpeg").empty()) {
     throw DataError(path.string() +
                     ": films are made by ffmpeg, which is not installed (on Debian: apt-get "
                     "install ffmpeg); numbered images such as -o frame_%04d.png need none");
   }
-  const ScratchText needed;  // by the encoder, when all frames have been drawn
-  if (settings.bits == 10) check_ten_bits(path, codec_of(path, settings));
+  // What is needed when all frames have been drawn.
+  const ScratchText needed;
+  const int bits = film_bits(path, settings);
+  const bool is_everywhere =
+      facts.codec == Codec::h264 || facts.codec == Codec::h265 || facts.codec == Codec::vp9;
+  if (bits == 10 || !is_everywhere) check_encoder(path, facts, bits);
+  if (!settings.audio.empty()) check_sound(settings.audio);
 }
 
 struct Encoder::Process {
@@ -168,8 +218,8 @@ struct Encoder::Process {
 };
 
 Encoder::Encoder(const std::filesystem::path& path, const MovieSettings& settings, int width,
-                 int height, std::chrono::milliseconds patience)
-    : path_(path), patience_(patience), film_(path) {
+                 int height, const FilmLayout& layout, std::chrono::milliseconds patience)
+    : path_(path), layout_(layout), patience_(patience), film_(path) {
   // A socket rather than a pipe: one whose other end is gone answers with an error, not with
   // a signal.
   int ends[2];
@@ -179,7 +229,7 @@ Encoder::Encoder(const std::filesystem::path& path, const MovieSettings& setting
   input_ = ends[0];
   try {
     process_ = std::make_unique<Process>(
-        arguments(path, settings, width, height, film_.temporary_path()), ends[1]);
+        arguments(path, settings, width, height, layout, film_.temporary_path()), ends[1]);
   } catch (...) {
     ::close(ends[0]);
     ::close(ends[1]);
@@ -232,6 +282,7 @@ void Encoder::finish() {
     case ChildProcess::End::success:
       break;
   }
+  if (!layout_.is_plain() && has_boxes(path_)) write_layout(film_.temporary_path(), layout_);
   check_film_is_whole();
   film_.finish();
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/unfinished_file.h"
+#include "film/movie/film_layout.h"
 #include "splotchcl/movie.h"
 
 namespace splotchcl {
@@ -15,8 +16,9 @@ namespace splotchcl {
 // Whether the ending names a film: .mp4, .mov, .mkv or .webm.
 bool is_film_path(const std::filesystem::path& path);
 
-// Throws UsageError when the codec does not fit the file's ending or the picture has sides
-// that films cannot have, DataError when there is no ffmpeg.
+// Throws UsageError when the codec does not fit the file's ending or the picture has sides or bits
+// that it cannot have, DataError when there is no ffmpeg, or it lacks the encoder, or finds no
+// sound where there should be some.
 void check_film(const std::filesystem::path& path, const MovieSettings& settings, int width,
                 int height);
 
@@ -24,8 +26,10 @@ void check_film(const std::filesystem::path& path, const MovieSettings& settings
 // bytes. The film appears under its name when it is complete and ffmpeg can read it.
 class Encoder {
  public:
+  // The film says its layout as far as can_tell().
   // An ffmpeg that gets on with nothing for as long as `patience` is ended. Throws DataError.
   Encoder(const std::filesystem::path& path, const MovieSettings& settings, int width, int height,
+          const FilmLayout& layout = {},
           std::chrono::milliseconds patience = std::chrono::minutes(5));
   ~Encoder();
   Encoder(const Encoder&) = delete;
@@ -46,6 +50,7 @@ class Encoder {
   [[noreturn]] void fail(const std::string& messages) const;
 
   std::filesystem::path path_;
+  FilmLayout layout_;
   std::chrono::milliseconds patience_;
   UnfinishedFile film_;
   std::unique_ptr<Process> process_;

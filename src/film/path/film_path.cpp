@@ -3,113 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "film/path/keyframe_tracks.h"
-#include "scene/curves.h"
-#include "scene_file/values.h"
+#include "film/path/frame_settings.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl {
 namespace {
-
-// The camera on an orbit or a flight, or standing still.
-class CameraMotion {
- public:
-  // An orbit needs a scene with a camera. Throws UsageError.
-  CameraMotion(const Scene& scene, int frames);
-
-  // "key=value" for what moves.
-  std::vector<std::string> settings(int frame) const;
-
- private:
-  std::vector<std::string> on_orbit(int frame) const;
-  std::vector<std::string> on_flight(int frame) const;
-
-  PathSettings path_;
-  Camera camera_;
-  int frames_;
-  std::optional<Flight> flight_;
-  double look_ahead_ = 0;
-};
-using boost::qvm::mag;
-
-std::string setting(const std::string& key, const Vec3& value) {
-  return "camera." + key + "=" + scene_file::vector().write(value);
-}
-
-void check_orbit(const Orbit& orbit, const Camera& camera) {
-  if (orbit.axis && !(mag(*orbit.axis) > 0)) {
-    throw UsageError("path.orbit.axis: found [0, 0, 0], expected any direction");
-  }
-  const Vec3 center = orbit.center.value_or(camera.look_at);
-  if (orbit.radius && !(mag(camera.position - center) > 0)) {
-    throw UsageError(
-        "path.orbit.radius: found a camera that stands at the center of its orbit, expected it "
-        "elsewhere, in the direction in which the orbit begins");
-  }
-}
-
-Flight make_flight(const FlyThrough& fly) {
-  for (std::size_t i = 1; i < fly.through.size(); ++i) {
-    if (mag(fly.through[i] - fly.through[i - 1]) > 0) continue;
-    throw UsageError(
-        fmt::format("path.fly.through: found point {} twice in a row, expected each point to "
-                    "differ from the one before",
-                    scene_file::vector().write(fly.through[i])));
-  }
-  return Flight(fly.through);
-}
-
-CameraMotion::CameraMotion(const Scene& scene, int frames)
-    : path_(scene.path), camera_(scene.camera.value_or(Camera())), frames_(frames) {
-  if (path_.orbit) check_orbit(*path_.orbit, camera_);
-  if (!path_.fly) return;
-  flight_ = make_flight(*path_.fly);
-  // The distance counts where the picture's scale or a pair of eyes depends on it.
-  look_ahead_ = scene.camera ? mag(camera_.look_at - camera_.position) : flight_->length();
-}
-
-std::vector<std::string> CameraMotion::settings(int frame) const {
-  if (path_.orbit) return on_orbit(frame);
-  if (path_.fly) return on_flight(frame);
-  return {};
-}
-
-std::vector<std::string> CameraMotion::on_orbit(int frame) const {
-  const Orbit& orbit = *path_.orbit;
-  const double degrees = orbit.degrees * frame / frames_;
-  const Vec3 center = orbit.center.value_or(camera_.look_at);
-  const Vec3 axis = orbit.axis.value_or(camera_.sky);
-  Vec3 start = camera_.position;
-  if (orbit.radius) {
-    const Vec3 arm = start - center;
-    start = center + *orbit.radius / mag(arm) * arm;
-  }
-  std::vector<std::string> settings = {setting("position", turned(start, center, axis, degrees))};
-  // What lies on the axis stays, exactly.
-  if (orbit.center)
-    settings.push_back(setting("look_at", turned(camera_.look_at, center, axis, degrees)));
-  if (orbit.axis) {
-    settings.push_back(setting("sky", turned(camera_.sky, Vec3{{0, 0, 0}}, axis, degrees)));
-  }
-  return settings;
-}
-
-std::vector<std::string> CameraMotion::on_flight(int frame) const {
-  const double t = frames_ > 1 ? static_cast<double>(frame) / (frames_ - 1) : 0;
-  const Flight::State state = flight_->at(path_.fly->is_eased ? t * t * (3 - 2 * t) : t);
-  const Vec3 ahead = state.position + look_ahead_ * state.direction;
-  return {setting("position", state.position),
-          setting("look_at", path_.fly->look_at.value_or(ahead))};
-}
 
 const std::string index_key = "time.index";
 
@@ -152,8 +58,12 @@ int count_frames(const Scene& scene, const std::optional<PathTable>& table) {
             "fly-through in a [path] table, or only movie.frames for a scene that stays");
 }
 
-void append(std::vector<std::string>& settings, const std::vector<std::string>& more) {
-  settings.insert(settings.end(), more.begin(), more.end());
+// Rows are of whole frames.
+void refuse_blur_of(const std::optional<PathTable>& table) {
+  if (!table) return;
+  throw UsageError(
+      "movie.motion_blur: found it beside path.file, which says nothing between frames, expected "
+      "an orbit, a flight or keyframes");
 }
 
 // "camera.sky" of "setting "...": key camera.sky: found ...", and what follows.
@@ -174,6 +84,8 @@ std::optional<KeyMessage> split_message(const std::string& message) {
 
 bool path_has_camera(const Scene& scene) {
   const PathSettings& path = scene.path;
+  // They begin with what the scene's camera shows.
+  if (path.follow || path.approach) return false;
   if (path.fly) return true;
   if (!path.file.empty()) {
     const PathTable table(path.file, scene);
@@ -183,20 +95,24 @@ bool path_has_camera(const Scene& scene) {
          path.keyframes.front().values.count("camera.look_at") > 0;
 }
 
-FilmPath::FilmPath(const Scene& scene, std::vector<std::string>& notes) {
+FilmPath::FilmPath(const Scene& scene, std::vector<std::string>& notes, const FindFollowed& find) {
   if (!scene.path.file.empty()) {
     table_.emplace(scene.path.file, scene);
     settle_snapshot_index(*table_, scene, notes);
   }
   const int frames = count_frames(scene, table_);
-  const KeyframeTracks keyframes(scene);
-  const CameraMotion motion(scene, frames);
+  const FrameSettings settings(scene, table_ ? &*table_ : nullptr, frames, find, notes);
+  for (int frame = 0; frame < frames; ++frame)
+    settings_.push_back(settings.at(frame));
+  if (!scene.movie.motion_blur) return;
+  refuse_blur_of(table_);
+  const MotionBlur& blur = *scene.movie.motion_blur;
+  samples_ = static_cast<std::size_t>(blur.samples);
   for (int frame = 0; frame < frames; ++frame) {
-    std::vector<std::string> settings;
-    if (table_) append(settings, table_->settings(frame));
-    append(settings, motion.settings(frame));
-    append(settings, keyframes.settings(frame));
-    settings_.push_back(settings);
+    for (int i = 0; i < blur.samples; ++i) {
+      const double place = frame + blur.shutter * ((i + 0.5) / blur.samples - 0.5);
+      blurred_.push_back(settings.at(std::clamp<double>(place, 0, frames - 1)));
+    }
   }
 }
 
@@ -205,10 +121,23 @@ const std::vector<std::string>& FilmPath::settings(int frame) const {
 }
 
 Scene FilmPath::scene_at(const Scene& scene, int frame) const {
+  return scene_of(scene, frame, settings(frame));
+}
+
+std::vector<Scene> FilmPath::blurred_scenes(const Scene& scene, int frame) const {
+  std::vector<Scene> scenes;
+  const std::size_t first = static_cast<std::size_t>(frame) * samples_;
+  for (std::size_t i = 0; i < samples_; ++i)
+    scenes.push_back(scene_of(scene, frame, blurred_.at(first + i)));
+  return scenes;
+}
+
+Scene FilmPath::scene_of(const Scene& scene, int frame,
+                         const std::vector<std::string>& settings) const {
   try {
     Scene numbered = scene;
     numbered.finish.frame = frame;
-    return apply_settings(numbered, settings(frame));
+    return apply_settings(numbered, settings);
   } catch (const UsageError& error) {
     const std::optional<KeyMessage> message = split_message(error.what());
     if (!message) throw UsageError(where(frame, "") + ": " + error.what());

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "film/path/keyframe_pace.h"
 #include "film/path/path_table.h"
 #include "scene/curves.h"
 #include "scene_file/setting.h"
@@ -25,6 +26,7 @@ const std::string position_key = "camera.position", look_at_key = "camera.look_a
 struct Knots {
   std::vector<double> frames;
   std::vector<std::string> values;
+  std::vector<Stop> stops;
 };
 
 // A number, or an array of them.
@@ -161,6 +163,7 @@ std::function<std::string(double)> look_track(const Knots& knots,
                                               bool is_smooth) {
   std::vector<Vec3> directions;
   std::vector<double> distances;
+  const KeyframePace pace(knots.stops);
   for (std::size_t i = 0; i < knots.frames.size(); ++i) {
     directions.push_back(vector_of(look_at_key, knots.values[i]) - position(knots.frames[i]));
     distances.push_back(boost::qvm::mag(directions.back()));
@@ -171,8 +174,9 @@ std::function<std::string(double)> look_track(const Knots& knots,
   const DirectionTrack track(knots.frames, directions, is_smooth);
   const Spline distance(knots.frames, distances,
                         is_smooth ? SplineKind::monotone : SplineKind::linear);
-  return [track, distance, position](double place) {
-    return written(Vec3(position(place) + distance.at(place) * track.at(place)));
+  return [track, distance, position, pace](double frame) {
+    const double place = pace.place_at(frame);
+    return written(Vec3(position(frame) + distance.at(place) * track.at(place)));
   };
 }
 
@@ -182,6 +186,7 @@ std::map<std::string, Knots> knots_by_key(const std::vector<Keyframe>& keyframes
     for (const auto& [key, value] : keyframe.values) {
       knots[key].frames.push_back(keyframe.frame);
       knots[key].values.push_back(value);
+      knots[key].stops.push_back({keyframe.frame, keyframe.dwell, keyframe.is_eased});
     }
   }
   return knots;
@@ -202,6 +207,11 @@ KeyframeTracks::KeyframeTracks(const Scene& scene) {
     } else {
       tracks_[key] = steps(of_key);
     }
+    if (KeyframePace::changes(of_key.stops)) {
+      tracks_[key] = [track = tracks_[key], pace = KeyframePace(of_key.stops)](double frame) {
+        return track(pace.place_at(frame));
+      };
+    }
   }
   const auto look = knots.find(look_at_key);
   if (path.look == PathSettings::Look::point || look == knots.end()) return;
@@ -217,7 +227,7 @@ KeyframeTracks::KeyframeTracks(const Scene& scene) {
   tracks_[look_at_key] = look_track(look->second, position, path.is_smooth);
 }
 
-std::vector<std::string> KeyframeTracks::settings(int frame) const {
+std::vector<std::string> KeyframeTracks::settings(double frame) const {
   std::vector<std::string> settings;
   for (const auto& [key, track] : tracks_)
     settings.push_back(key + "=" + track(frame));

@@ -16,7 +16,7 @@ class KeyframeTracks {
   explicit KeyframeTracks(const Scene& scene);
 
   // "key=value" for each key at a frame.
-  std::vector<std::string> settings(int frame) const;
+  std::vector<std::string> settings(double frame) const;
 
  private:
   std::map<std::string, std::function<std::string(double)>> tracks_;  // value at a place

@@ -341,5 +341,50 @@ TEST_F(Films, AreRefusedBeforeAnythingIsRead) {
   EXPECT_EQ(folder_.count_files(), 2U);
 }
 
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+TEST_F(Films, OfNumberedImagesHaveNoSound) {
+  options_.settings = {"movie.audio=music.wav"};
+  EXPECT_THAT(refusal(), HasSubstr("movie.audio"));
+}
+
+TEST_F(Films, OfNumberedExrHaveATimecode) {
+  options_.output = folder_ / "frame_%d.exr";
+  make_film(options_, report_);
+  const std::string start = std::string("timeCode") + '\0' + "timecode" + '\0';
+  EXPECT_THAT(bytes_of(folder_ / "frame_3.exr"), HasSubstr(start));
+  EXPECT_THAT(bytes_of(folder_ / "frame_3.exr"), HasSubstr("00:00:00:03"));
+}
+
+// The light of an ever brighter component while the shutter is open: at the first frame from when
+// it is 1 to when it is 1.25 times as bright, in two pictures.
+TEST_F(Films, WithMotionBlurAreMeansOfTheirTime) {
+  const auto film_with = [this](const std::string& output, const std::string& movie) {
+    std::ofstream(folder_ / "film.toml") << "snapshot = 'halo.gadget'\n"
+                                            "[image]\nsize = [16, 12]\n"
+                                            "[path]\ninterpolation = 'linear'\n"
+                                            "[[path.keyframes]]\nframe = 0\n"
+                                            "component.gas.brightness = 1\n"
+                                            "[[path.keyframes]]\nframe = 2\n"
+                                            "component.gas.brightness = 3\n"
+                                            "[movie]\n"
+                                         << movie
+                                         << "[[component]]\nname = 'gas'\npalette = 'white'\n"
+                                            "absorption = 'none'\n";
+    options_.output = folder_ / output;
+    make_film(options_, report_);
+  };
+  film_with("sharp_%d.exr", "frames = 3\n");
+  film_with("blurred_%d.exr", "frames = 3\nmotion_blur = { shutter = 0.5, samples = 2 }\n");
+  const auto first = [this](const std::string& name) {
+    return read_image(folder_ / name).pixels.at(4 * (16 * 6 + 8));
+  };
+  EXPECT_NEAR(first("blurred_0.exr") / first("sharp_0.exr"), 0.5 * (1 + 1.125), 1e-4);
+  EXPECT_NEAR(first("blurred_1.exr") / first("sharp_1.exr"), 1, 1e-4);
+}
+
 }  // namespace
 }  // namespace splotchcl

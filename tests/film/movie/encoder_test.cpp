@@ -32,7 +32,7 @@ class FakeEncoder : public ::testing::Test {
   // What the film's failure says.
   std::string failure(int frames = 1) const {
     try {
-      Encoder encoder(folder_ / "film.mp4", {}, 640, 480, std::chrono::milliseconds(300));
+      Encoder encoder(folder_ / "film.mp4", {}, 640, 480, {}, std::chrono::milliseconds(300));
       for (int i = 0; i < frames; ++i)
         encoder.add(std::vector<std::uint8_t>(3 * 640 * 480));
       encoder.finish();

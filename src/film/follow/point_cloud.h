@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "splotchcl/periodic.h"
+#include "splotchcl/vector.h"
+
+namespace splotchcl {
+
+// Particles of a snapshot as points, all finite; with the periodic box that they fill, if any.
+struct PointCloud {
+  std::vector<Vec3> points;
+  std::optional<BoxSides> box;
+
+  // From `from` to the nearest image of a point.
+  Vec3 offset(const Vec3& from, const Vec3& point) const;
+};
+
+// Where the points lie closest, found in finer and finer cells and then in smaller and smaller
+// spheres. Needs a point.
+Vec3 densest_point(const PointCloud& cloud);
+
+// Of the sphere around a dense point that is 200 times as dense as the points in the mean; where
+// none is, of the hundredth of all that is nearest.
+double dense_radius(const PointCloud& cloud, const Vec3& center);
+
+// The median along each axis, to which outliers do not count: `guess` must be nearer to the points
+// than half of the box. In a periodic box the image nearest to the guess. Needs a point.
+Vec3 middle_of(const PointCloud& cloud, const Vec3& guess);
+
+// Of points and a center: how far the nearest `part` of them reach.
+double radius_of_part(const PointCloud& cloud, const Vec3& center, double part);
+
+}  // namespace splotchcl

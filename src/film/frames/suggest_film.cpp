@@ -1,0 +1,100 @@
+#include "film/frames/suggest_film.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/words.h"
+#include "film/follow/find_followed.h"
+#include "film/follow/followed_particles.h"
+#include "scene_file/values.h"
+#include "snapshot/snapshot_files.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr int usual_frames = 250;  // ten seconds
+
+const char* option_of(const FilmTarget& target) {
+  return target.is_approached ? "--dive" : "--follow";
+}
+
+Follow follow_of(const FilmTarget& target) {
+  Follow follow;
+  if (target.name == "densest") return follow;
+  const std::string start = "halo=";
+  std::optional<double> number;
+  if (target.name.rfind(start, 0) == 0) number = parse_number(target.name.substr(start.size()));
+  constexpr double most = 2147483647;
+  if (number && *number >= 0 && *number <= most && *number == static_cast<int>(*number)) {
+    follow.halo = static_cast<int>(*number);
+    return follow;
+  }
+  throw UsageError(fmt::format("{}: found {}, expected densest, or halo=N with a halo's number",
+                               option_of(target), target.name));
+}
+
+Keyframe at_index(double frame, double index) {
+  Keyframe keyframe;
+  keyframe.frame = frame;
+  keyframe.values["time.index"] = scene_file::write_number(index);
+  return keyframe;
+}
+
+// All snapshots in their order, or as many as the scene's frames have time for.
+std::vector<Keyframe> time_lapse(const Scene& scene) {
+  const std::vector<ListedSnapshot> list = list_snapshots(scene.time);
+  const int last = *scene.movie.frames - 1;
+  if (list.size() < 2 || last == 0) return {};
+  return {at_index(0, list.front().index), at_index(last, list.back().index)};
+}
+
+// A full turn about a snapshot, a part of one about what changes.
+Orbit slow_orbit(bool is_series) {
+  Orbit orbit;
+  orbit.degrees = is_series ? 90 : 360;
+  orbit.is_eased = true;
+  return orbit;
+}
+
+// In a periodic box the box is shown around the target from the start: nothing comes in at its
+// faces while the camera goes there.
+void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
+  using namespace boost::qvm;
+  if (!filled_box(scene, snapshot)) return;
+  scene.periodic.wrap = true;
+  std::vector<double> indices = {scene.time.index};
+  if (!scene.path.keyframes.empty()) indices.push_back(list_snapshots(scene.time).front().index);
+  const Vec3 shift = find_followed(scene, indices).center(indices.back()) - scene.camera->look_at;
+  scene.camera->look_at += shift;
+  scene.camera->position += shift;
+}
+
+}  // namespace
+
+void suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene) {
+  PathSettings& path = scene.path;
+  const bool has_target = !target.name.empty(), is_series = scene.time.is_set();
+  if (path.is_set() && has_target) {
+    throw UsageError(fmt::format(
+        "{}: found it for a scene with a [path], expected a scene or a snapshot without one; "
+        "path.follow and path.approach say the same in a scene",
+        option_of(target)));
+  }
+  if (path.is_set()) return;
+  if (!scene.movie.frames) scene.movie.frames = usual_frames;
+  if (is_series) path.keyframes = time_lapse(scene);
+  if (!target.is_approached) path.orbit = slow_orbit(is_series);
+  if (!has_target) return;
+  path.follow = follow_of(target);
+  show_box_around_target(snapshot, scene);
+  if (!target.is_approached) return;
+  path.approach.emplace();
+  // Close to the densest place there is far more light than in the whole.
+  if (!scene.finish.exposure) scene.finish.exposure_follows = true;
+}
+
+}  // namespace splotchcl

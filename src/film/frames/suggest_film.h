@@ -1,0 +1,17 @@
+#pragma once
+
+#include "splotchcl/film.h"
+#include "splotchcl/scene.h"
+#include "splotchcl/snapshot.h"
+
+namespace splotchcl {
+
+// Gives a scene that says nothing of a film one that suits its data: an orbit around what a
+// snapshot shows, or a sequence in its order of time with a slow orbit. With a dive it goes from
+// what the scene's camera shows to the densest place or a halo, through time where there is a
+// sequence; or it orbits around that all along. What the scene says of frames stays. The scene has
+// a camera, and its components. `snapshot` is one of the scene's. Throws UsageError for a target
+// that is none, and for one in a scene with a path.
+void suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene);
+
+}  // namespace splotchcl
