@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "parallel/for_blocks.h"
 #include "scene/scalar_map.h"
@@ -40,7 +39,7 @@ float FieldPlaces::operator()(std::uint32_t ordered) const {
 
 PaletteWay::PaletteWay(const Palette& palette) {
   for (const Rgb& color : palette.emission) {
-    Knot knot;
+    Step knot;
     knot.color = color;
     if (!knots_.empty()) {
       float step = 0;
@@ -52,30 +51,17 @@ PaletteWay::PaletteWay(const Palette& palette) {
   }
 }
 
-std::pair<std::size_t, float> PaletteWay::below(float place) const {
-  if (knots_.size() == 1) return {0, 0.0f};
+PaletteWay::Step PaletteWay::step(float place) const {
+  if (knots_.size() == 1) return knots_.front();
   const float at = place * static_cast<float>(knots_.size() - 1);
-  const auto knot = std::min(static_cast<std::size_t>(at), knots_.size() - 2);
-  return {knot, at - static_cast<float>(knot)};
-}
-
-std::array<float, 3> PaletteWay::color(float place) const {
-  const auto [knot, part] = below(place);
-  std::array<float, 3> color = knots_[knot].color;
-  if (knot + 1 == knots_.size()) return color;
+  const auto below = std::min(static_cast<std::size_t>(at), knots_.size() - 2);
+  const float part = at - static_cast<float>(below);
+  Step step = knots_[below];
+  const Step& next = knots_[below + 1];
   for (std::size_t c = 0; c < 3; ++c)
-    color[c] += part * (knots_[knot + 1].color[c] - color[c]);
-  return color;
-}
-
-float PaletteWay::way(float place) const {
-  const auto [knot, part] = below(place);
-  const float from = knots_[knot].way;
-  return knot + 1 == knots_.size() ? from : from + part * (knots_[knot + 1].way - from);
-}
-
-float PaletteWay::spread(float a, float b) const {
-  return std::abs(way(a) - way(b));
+    step.color[c] += part * (next.color[c] - step.color[c]);
+  step.way += part * (next.way - step.way);
+  return step;
 }
 
 }  // namespace splotchcl

@@ -26,20 +26,16 @@ class FieldPlaces {
 class PaletteWay {
  public:
   explicit PaletteWay(const Palette& palette);
-  std::array<float, 3> color(float place) const;
-  // How far colors between two places may lie apart in any channel, at most.
-  float spread(float a, float b) const;
-
- private:
-  struct Knot {
+  // Colors between two places lie apart in any channel by at most the way between them.
+  struct Step {
     std::array<float, 3> color{};
     float way = 0;  // from the first knot
   };
-  float way(float place) const;
-  // The knot below a place, and how far it is to the next.
-  std::pair<std::size_t, float> below(float place) const;
+  Step step(float place) const;
+  std::array<float, 3> color(float place) const { return step(place).color; }
 
-  std::vector<Knot> knots_;
+ private:
+  std::vector<Step> knots_;
 };
 
 }  // namespace splotchcl

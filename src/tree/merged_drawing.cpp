@@ -92,7 +92,7 @@ double largest_difference(const Image& picture, const Image& finer, const Rectan
 // Regions are drawn together: elsewhere that picture shows a part of its light.
 void verify(const Frame& frame, double error, const std::vector<Rectangle>& regions,
             const std::function<Image(const Frame&)>& draw, MergedDrawing& drawing) {
-  TreeCut finer = cut_tree(frame, {error / verified_finer, regions});
+  TreeCut finer = cut_tree(frame, {error / verified_finer, regions, 2});
   finer.frame.tolerance = verified_tolerance * frame.tolerance;
   const Image exact = draw(finer.frame);
   drawing.visited += finer.visited;
@@ -113,7 +113,7 @@ std::optional<MergedDrawing> draw_merged(const Frame& frame,
   MergedDrawing drawing;
   double error = part_of_nodes * frame.tolerance;
   for (drawing.cuts = 1; drawing.cuts <= most_cuts; ++drawing.cuts) {
-    TreeCut cut = cut_tree(frame, {error, {}});
+    TreeCut cut = cut_tree(frame, {error, {}, 2});
     const bool is_worth_it = cut.nodes + cut.particles < particle_count(frame) / 4;
     if (drawing.cuts > 1 && !is_worth_it) return std::nullopt;
     cut.frame.tolerance = (1 - part_of_nodes) * frame.tolerance;

@@ -14,6 +14,9 @@ struct CutSettings {
   double error = 0;
   // Only what may be seen here is drawn, for a frame of this crop; none: the frame's crop.
   std::vector<Rectangle> regions;
+  // So often limits are corrected by what nodes were found to err by. Without, a cut is quick and
+  // keeps its error only roughly.
+  int corrections = 2;
 };
 
 // A frame in which nodes stand for particles where they err by little enough.
@@ -31,7 +34,7 @@ struct TreeCut {
 bool is_served(const Frame& frame, const DrawnComponent& component);
 bool has_served_component(const Frame& frame);
 
-// Looks at nodes from the roots on, level by level, each at most once. Deterministic: the same
+// Looks at nodes from the roots on, level by level. Deterministic: the same
 // nodes on any number of threads. Throws DataError where a tree's own numbers do not fit.
 TreeCut cut_tree(const Frame& frame, const CutSettings& settings);
 

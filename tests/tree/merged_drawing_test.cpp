@@ -209,7 +209,7 @@ TEST(TreeCut, OpensAllToParticlesWhereNothingMayErr) {
   camera.projection = Projection::fisheye;
   frame.camera = make_camera_frame(camera, frame.width, frame.height);
   plant(frame, tree_of(matter));
-  const TreeCut cut = cut_tree(frame, {0, {}});
+  const TreeCut cut = cut_tree(frame, {0, {}, 2});
   EXPECT_EQ(cut.nodes, 0u);
   EXPECT_EQ(cut.particles, matter.count());
 }
@@ -218,7 +218,7 @@ TEST(TreeCut, IsTheSameOnAnyNumberOfThreads) {
   const Matter matter = clumps(30000, 24);
   Frame frame = frame_of(matter, 40, 30);
   plant(frame, tree_of(matter));
-  const TreeCut one = cut_tree(frame, {1e-3, {}}), other = cut_tree(frame, {1e-3, {}});
+  const TreeCut one = cut_tree(frame, {1e-3, {}, 2}), other = cut_tree(frame, {1e-3, {}, 2});
   ASSERT_EQ(one.nodes, other.nodes);
   for (std::size_t i = 0; i < one.nodes; ++i) {
     ASSERT_EQ(one.frame.components[0].particles.smoothing_length[i],

@@ -1,0 +1,70 @@
+#include "tree/node_color.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tree/sampled_field.h"
+
+namespace splotchcl {
+namespace {
+
+constexpr float share = 1.0f / sampled_members;
+
+struct SampledColors {
+  std::array<PaletteWay::Step, sampled_members> steps;
+  std::array<float, sampled_members> factors;
+};
+
+SampledColors sampled_colors(const TreePart& part, const SampledField* sampled) {
+  SampledColors colors;
+  for (std::size_t k = 0; k < sampled_members; ++k) {
+    const float place =
+        part.color_places ? (*part.color_places)(sampled[part.part->color].ordered(k)) : 0.0f;
+    colors.steps[k] = part.palette->step(place);
+    colors.factors[k] =
+        part.intensities ? (*part.intensities)(sampled[part.part->intensity].ordered(k)) : 1.0f;
+  }
+  return colors;
+}
+
+// Between neighbours lies what the eighth may hold.
+float spread_around(const SampledColors& colors, std::size_t k) {
+  const std::size_t before = k > 0 ? k - 1 : k;
+  const std::size_t after = k + 1 < sampled_members ? k + 1 : k;
+  const auto& f = colors.factors;
+  return std::abs(colors.steps[after].way - colors.steps[before].way) *
+             std::max({f[before], f[k], f[after]}) +
+         std::abs(f[after] - f[before]);
+}
+
+}  // namespace
+
+NodeColor node_color(const TreePart& part, const TreeLevel& level, std::uint64_t node) {
+  NodeColor color;
+  if (part.part->color < 0 && part.part->intensity < 0) {
+    color.mean = part.palette->color(0);
+    return color;
+  }
+  const SampledColors colors =
+      sampled_colors(part, level.fields + node * part.tree().fields.size());
+  color.mean = {0, 0, 0};
+  std::array<float, 3> squares{};
+  float variance = 0;
+  for (std::size_t k = 0; k < sampled_members; ++k) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float value = colors.steps[k].color[c] * colors.factors[k];
+      color.mean[c] += value * share;
+      squares[c] += value * value * share;
+    }
+    const float spread = spread_around(colors, k);
+    variance += spread * spread / 8 * share * share;
+  }
+  color.variance = static_cast<double>(variance);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float spread2 = std::max(0.0f, squares[c] - color.mean[c] * color.mean[c]);
+    color.deviation = std::max(color.deviation, static_cast<double>(std::sqrt(spread2)));
+  }
+  return color;
+}
+
+}  // namespace splotchcl
