@@ -21,20 +21,16 @@ float unclamped(float value, const ScalarMap& map) {
 
 }  // namespace
 
-FieldPlaces::FieldPlaces(const ScalarMap& map) : map_(map), places_(upper_halves) {
+FieldPlaces::FieldPlaces(const ScalarMap& map) : map_(map), places_(upper_halves + 1) {
   for_blocks(upper_halves, block, [&](std::size_t first, std::size_t last) {
     for (std::size_t half = first; half < last; ++half)
       places_[half] = unclamped(value_of_ordered(static_cast<std::uint32_t>(half << 16)), map_);
   });
+  places_.back() = places_[upper_halves - 1];
 }
 
-float FieldPlaces::operator()(std::uint32_t ordered) const {
-  const std::size_t half = ordered >> 16;
-  const float from = places_[half], to = places_[std::min(half + 1, upper_halves - 1)];
-  if (!std::isfinite(from) || !std::isfinite(to))
-    return static_cast<float>(normalized(static_cast<double>(value_of_ordered(ordered)), map_));
-  const float part = static_cast<float>(ordered & 0xffffU) * 0x1p-16f;
-  return std::clamp(from + part * (to - from), 0.0f, 1.0f);
+float FieldPlaces::exact(std::uint32_t ordered) const {
+  return static_cast<float>(normalized(static_cast<double>(value_of_ordered(ordered)), map_));
 }
 
 PaletteWay::PaletteWay(const Palette& palette) {
@@ -49,19 +45,6 @@ PaletteWay::PaletteWay(const Palette& palette) {
     }
     knots_.push_back(knot);
   }
-}
-
-PaletteWay::Step PaletteWay::step(float place) const {
-  if (knots_.size() == 1) return knots_.front();
-  const float at = place * static_cast<float>(knots_.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(at), knots_.size() - 2);
-  const float part = at - static_cast<float>(below);
-  Step step = knots_[below];
-  const Step& next = knots_[below + 1];
-  for (std::size_t c = 0; c < 3; ++c)
-    step.color[c] += part * (next.color[c] - step.color[c]);
-  step.way += part * (next.way - step.way);
-  return step;
 }
 
 }  // namespace splotchcl

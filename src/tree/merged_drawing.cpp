@@ -20,8 +20,8 @@ constexpr double verified_finer = 4;        // error of the cut to which a pictu
 constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
 constexpr double most_found = 0.65;         // of the promise, on blocks that are verified
 constexpr int most_cuts = 3;
-constexpr int blocks_of_region = 4;  // on each side
-constexpr std::size_t regions_of_each_kind = 4;
+constexpr int blocks_of_region = 2;  // on each side
+constexpr std::size_t regions_of_each_kind = 8;
 
 // Squares of blocks, as far as the crop reaches.
 std::vector<Rectangle> all_regions(const Rectangle& crop) {

@@ -17,12 +17,17 @@ struct SampledColors {
 
 SampledColors sampled_colors(const TreePart& part, const SampledField* sampled) {
   SampledColors colors;
-  for (std::size_t k = 0; k < sampled_members; ++k) {
-    const float place =
-        part.color_places ? (*part.color_places)(sampled[part.part->color].ordered(k)) : 0.0f;
-    colors.steps[k] = part.palette->step(place);
-    colors.factors[k] =
-        part.intensities ? (*part.intensities)(sampled[part.part->intensity].ordered(k)) : 1.0f;
+  colors.steps.fill(part.palette->step(0));
+  colors.factors.fill(1);
+  if (part.color_places) {
+    const auto values = sampled[part.part->color].all_ordered();
+    for (std::size_t k = 0; k < sampled_members; ++k)
+      colors.steps[k] = part.palette->step((*part.color_places)(values[k]));
+  }
+  if (part.intensities) {
+    const auto values = sampled[part.part->intensity].all_ordered();
+    for (std::size_t k = 0; k < sampled_members; ++k)
+      colors.factors[k] = (*part.intensities)(values[k]);
   }
   return colors;
 }

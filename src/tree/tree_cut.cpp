@@ -124,9 +124,12 @@ class Cutter {
           ++known;
         const bool is_known = before != nullptr && known < before->items.size() &&
                               before->items[known].node == item.node;
+        if (!is_known) ++own;
         frontier.weighed[i] = is_known ? before->weighed[known] : weigher_.weigh(part, item, level);
       }
+      visited += own;
     });
+    visited_ += visited;
   }
 
   // What the pass before looked at.
