@@ -1,5 +1,7 @@
 #include "tree/merged_drawing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,6 +17,8 @@
 namespace splotchcl {
 namespace {
 
+// Particles over a pixel times the squared tolerance.
+constexpr double least_gain = 0.015;
 constexpr double part_of_nodes = 0.7;       // of the tolerance
 constexpr double verified_finer = 4;        // error of the cut to which a picture is compared
 constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
@@ -96,6 +100,7 @@ void verify(const Frame& frame, double error, const std::vector<Rectangle>& regi
   finer.frame.tolerance = verified_tolerance * frame.tolerance;
   const Image exact = draw(finer.frame);
   drawing.visited += finer.visited;
+  drawing.bytes += finer.bytes;
   drawing.found = 0;
   drawing.verified_blocks = 0;
   for (const Rectangle& region : regions) {
@@ -107,6 +112,23 @@ void verify(const Frame& frame, double error, const std::vector<Rectangle>& regi
 }
 
 }  // namespace
+
+bool uses_tree(const Frame& frame, TreeUse use) {
+  if (use == TreeUse::never || frame.tolerance == 0 || !has_served_component(frame)) return false;
+  const double pixels = static_cast<double>(frame.width) * frame.height;
+  const double over_pixel = static_cast<double>(particle_count(frame)) / pixels;
+  return use == TreeUse::only || over_pixel * frame.tolerance * frame.tolerance > least_gain;
+}
+
+std::string explain_tree(const Frame& frame) {
+  const TreeCut cut = cut_tree(frame, {part_of_nodes * frame.tolerance, {}, 2});
+  return fmt::format(
+      "tree: {} nodes and {} particles in place of {}, found among {} nodes, {:.0f} MB of the "
+      "tree; "
+      "by estimate they err by {:.2f} of the tolerance\n",
+      cut.nodes, cut.particles, particle_count(frame), cut.visited,
+      static_cast<double>(cut.bytes) / 1e6, cut.estimate / frame.tolerance);
+}
 
 std::optional<MergedDrawing> draw_merged(const Frame& frame,
                                          const std::function<Image(const Frame&)>& draw) {
@@ -121,6 +143,8 @@ std::optional<MergedDrawing> draw_merged(const Frame& frame,
     drawing.nodes = cut.nodes;
     drawing.particles = cut.particles;
     drawing.visited += cut.visited;
+    drawing.bytes += cut.bytes;
+    drawing.estimate = cut.estimate / frame.tolerance;
     verify(frame, error, verified_regions(frame, cut.alike), draw, drawing);
     if (drawing.found <= most_found) return drawing;
     error *= std::max(0.2, 0.5 / drawing.found);

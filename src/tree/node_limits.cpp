@@ -9,10 +9,10 @@ namespace {
 
 constexpr double standard_deviations = 6;
 // A node alone may err by this many of its own standard deviations.
-constexpr double most_of_one_node = 5;
-// Before limits are corrected: nodes err by so much of their light, squared. Measured in scenes of
-// clumps, of which it only decides how far there is to go.
-constexpr double usual_error2 = 7e-4;
+constexpr double most_of_one_node = 10;
+// Before limits are corrected: squared errors of nodes, added up over pixels, over their squared
+// light. Measured for clumps; corrections take care of the rest.
+constexpr double usual_error2 = 4.4e-5;
 // A part of what is promised is left for what corrections miss.
 constexpr double part_that_is_taken = 0.8;
 // What nodes take grows by less than their limit.
@@ -44,11 +44,11 @@ double NodeLimits::promised(double light) const {
   return std::pow(error / standard_deviations, 2);
 }
 
-// Nodes that each err by e of their light, n of them in a cell of light I, make a variance of
-// e^2 I^2 / n: as much as is promised where each errs by the square of that over e^2 I^2.
+// Where n nodes of a cell share its light I evenly and their squared errors are e^2 of their
+// squared light, they make a variance of 16 e^2 I^2 / n. It is V where each errs by V^2 / (e^2
+// I^2).
 void NodeLimits::see(const ErrorCells& light) {
   const CellNumbers lights = light.least_totals();
-  const double pixels = light.pixels(0);
   promised_.resize(lights.size());
   of_node_.resize(lights.size());
   for (std::size_t s = 0; s < lights.size(); ++s) {
@@ -58,7 +58,7 @@ void NodeLimits::see(const ErrorCells& light) {
       const double variance = promised_[s][cell] = promised(lights[s][cell]);
       if (is_corrected_) continue;
       const double of_light = usual_error2 * lights[s][cell] * lights[s][cell];
-      of_node_[s][cell] = variance * variance * pixels * pixels / std::max(of_light, 1e-30);
+      of_node_[s][cell] = variance * variance / std::max(of_light, 1e-30);
     }
   }
 }
@@ -81,6 +81,16 @@ void NodeLimits::correct(const ErrorCells& used) {
   }
   widen(used, of_node_);
   is_corrected_ = true;
+}
+
+double NodeLimits::largest_part(const ErrorCells& used) const {
+  if (promised_.empty()) return 0;
+  const CellNumbers taken = used.totals();
+  double largest = 0;
+  for (std::size_t cell = 0; cell < taken[0].size(); ++cell) {
+    if (promised_[0][cell] > 0) largest = std::max(largest, taken[0][cell] / promised_[0][cell]);
+  }
+  return std::sqrt(largest);
 }
 
 }  // namespace splotchcl

@@ -21,6 +21,8 @@ class NodeLimits {
   bool keeps(const WeighedNode& node, const ErrorCells& cells) const;
   // After all nodes were looked at with these limits: nodes have taken so much.
   void correct(const ErrorCells& used);
+  // The largest standard deviation of what nodes err by that was taken, over what is promised.
+  double largest_part(const ErrorCells& used) const;
 
  private:
   double promised(double light) const;

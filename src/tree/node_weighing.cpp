@@ -41,7 +41,7 @@ ShownShape shown_shape(const TreePart& part, const TreeNode& node, double cell,
 // What the spread of members adds to the width of what they err by: cumulants err as wide as the
 // node itself. Where it is many pixels wide it is more than a few cumulants that count.
 double spread_of_members(double place2, double seen2) {
-  constexpr double part = 0.75, most = 9;
+  constexpr double part = 0.75, most = 3;
   return part * std::min(place2, most * (seen2 + 1.0 / 12));
 }
 

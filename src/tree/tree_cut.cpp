@@ -130,6 +130,9 @@ class Cutter {
       visited += own;
     });
     visited_ += visited;
+    constexpr std::uint64_t flags = 2;  // of children and loose particles
+    bytes_ +=
+        visited * (sizeof(TreeNode) + flags + part.tree().fields.size() * sizeof(SampledField));
   }
 
   // What the pass before looked at.
@@ -227,6 +230,8 @@ class Cutter {
     }
     cut.nodes = kept_;
     cut.visited = visited_;
+    cut.bytes = bytes_ + cut.particles * sizeof(std::uint32_t);
+    cut.estimate = settings_.error * limits_.largest_part(sums_.errors);
     cut.alike = alike();
     return cut;
   }
@@ -257,7 +262,7 @@ class Cutter {
   bool draws_ = false;
   std::vector<Level> seen_;        // by the pass before
   std::vector<DrawnNodes> nodes_;  // of each component
-  std::uint64_t kept_ = 0, visited_ = 0;
+  std::uint64_t kept_ = 0, visited_ = 0, bytes_ = 0;
 };
 
 }  // namespace
