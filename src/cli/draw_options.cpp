@@ -12,6 +12,7 @@
 #include "common/unfinished_file.h"
 #include "common/utf8.h"
 #include "estimate/frame_estimate.h"
+#include "film/drawing/tree_choice.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/views.h"

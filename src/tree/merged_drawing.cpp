@@ -113,11 +113,10 @@ void verify(const Frame& frame, double error, const std::vector<Rectangle>& regi
 
 }  // namespace
 
-bool uses_tree(const Frame& frame, TreeUse use) {
-  if (use == TreeUse::never || frame.tolerance == 0 || !has_served_component(frame)) return false;
+bool tree_pays(const Frame& frame) {
   const double pixels = static_cast<double>(frame.width) * frame.height;
   const double over_pixel = static_cast<double>(particle_count(frame)) / pixels;
-  return use == TreeUse::only || over_pixel * frame.tolerance * frame.tolerance > least_gain;
+  return has_served_component(frame) && over_pixel * frame.tolerance * frame.tolerance > least_gain;
 }
 
 std::string explain_tree(const Frame& frame) {

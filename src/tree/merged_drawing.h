@@ -7,7 +7,6 @@
 
 #include "splotchcl/frame.h"
 #include "splotchcl/image.h"
-#include "splotchcl/tree_use.h"
 
 namespace splotchcl {
 
@@ -25,9 +24,9 @@ struct MergedDrawing {
   double found = 0;
 };
 
-// Whether a frame is drawn so: a tree serves some of it, and where the scene leaves it open so many
-// particles lie over a pixel that it takes less time than they do (docs/dev/performance.md).
-bool uses_tree(const Frame& frame, TreeUse use);
+// Whether a tree serves some of a frame, and so many particles lie over a pixel that it takes less
+// time than they do (docs/dev/performance.md).
+bool tree_pays(const Frame& frame);
 
 // A line of the first cut of such a frame, without drawing it.
 std::string explain_tree(const Frame& frame);

@@ -13,6 +13,7 @@
 
 #include "common/quiet_errors.h"
 #include "common/utf8.h"
+#include "film/drawing/tree_choice.h"
 #include "parallel/in_background.h"
 #include "pictures/other_scenes.h"
 #include "ranks/spread_particles.h"
