@@ -23,6 +23,8 @@ class OtherScenes;
 struct TreeStats {
   std::uint64_t nodes = 0, particles = 0;  // drawn
   std::uint64_t visited = 0;               // nodes that were looked at
+  std::uint64_t bytes = 0;                 // of the tree, for these
+  double estimate = 0;                     // of what nodes err by, over what is promised
   int cuts = 0;                            // that were drawn until one served
   int verified_blocks = 0;
   double found = 0;  // the largest error there, over what is promised: an estimate

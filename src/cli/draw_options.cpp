@@ -12,9 +12,11 @@
 #include "common/unfinished_file.h"
 #include "common/utf8.h"
 #include "estimate/frame_estimate.h"
+#include "film/drawing/tree_choice.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/views.h"
+#include "tree/merged_drawing.h"
 
 namespace splotchcl::cli {
 namespace {
@@ -80,12 +82,18 @@ std::string explain_estimate(const FramePlan& plan, const Frame& frame, const Sc
   }
 }
 
+std::string explain_nodes(const Frame& frame, const DrawOptions& options) {
+  if (options.reference || !uses_tree(frame, options.tree)) return {};
+  return explain_tree(frame);
+}
+
 }  // namespace
 
 void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& scene,
                        const DrawOptions& options, int pictures) {
   std::istringstream lines(explain(plan, frame) +
-                           explain_estimate(plan, frame, scene, options, pictures));
+                           explain_estimate(plan, frame, scene, options, pictures) +
+                           explain_nodes(frame, options));
   for (std::string line; std::getline(lines, line);)
     std::cout << "# " << printable(line) << "\n";
   std::cout << "\n" << format_scene(scene);
@@ -161,6 +169,8 @@ Json tree_to_json(const TreeStats& tree) {
   return {{"nodes", tree.nodes},
           {"particles", tree.particles},
           {"visited", tree.visited},
+          {"bytes", tree.bytes},
+          {"estimate_of_promise", tree.estimate},
           {"cuts", tree.cuts},
           {"verified_blocks", tree.verified_blocks},
           {"found_of_promise", tree.found}};

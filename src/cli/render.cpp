@@ -238,8 +238,11 @@ int run_render(const RenderOptions& options, Console& console) {
       plan.certify = options.certify || options.error_map;
       report.plan = make_plan(report.frame, plan);
     }
-    if (options.explain && writes)
-      print_explanation(report.plan, report.frame, source.scene, options, 1);
+    if (options.explain && writes) {
+      DrawOptions explained = options;
+      if (options.certify) explained.tree = TreeUse::never;
+      print_explanation(report.plan, report.frame, source.scene, explained, 1);
+    }
   });
   if (!output) return 0;
 

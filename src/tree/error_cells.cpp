@@ -40,27 +40,28 @@ std::size_t ErrorCells::cell_at(int scale, double x, double y) const {
   return place(y, cells.rows) * static_cast<std::size_t>(cells.columns) + place(x, cells.columns);
 }
 
-std::vector<std::vector<double>> ErrorCells::totals_with(bool of_largest) const {
-  std::vector<std::vector<double>> within(grids_.size()), around(grids_.size());
-  const auto parent = [&](std::size_t s, std::size_t cell) {
-    const auto columns = static_cast<std::size_t>(grids_[s].columns);
-    const auto wider = static_cast<std::size_t>(grids_[s + 1].columns);
-    return cell / columns / 2 * wider + cell % columns / 2;
-  };
+std::size_t ErrorCells::parent(int scale, std::size_t cell) const {
+  const auto columns = static_cast<std::size_t>(grid(scale).columns);
+  const auto wider = static_cast<std::size_t>(grid(scale + 1).columns);
+  return cell / columns / 2 * wider + cell % columns / 2;
+}
+
+CellNumbers ErrorCells::totals_with(bool of_largest) const {
+  CellNumbers within(grids_.size()), around(grids_.size());
   for (std::size_t s = 0; s < grids_.size(); ++s) {
     const double none = of_largest ? 0 : std::numeric_limits<double>::infinity();
     within[s].assign(grids_[s].values.size(), s == 0 ? 0 : none);
     around[s].assign(grids_[s].values.size(), 0);
     if (s == 0) continue;
     for (std::size_t cell = 0; cell < grids_[s - 1].values.size(); ++cell) {
-      double& sum = within[s][parent(s - 1, cell)];
+      double& sum = within[s][parent(static_cast<int>(s) - 1, cell)];
       const double own = within[s - 1][cell] + grids_[s - 1].values[cell];
       sum = of_largest ? std::max(sum, own) : std::min(sum, own);
     }
   }
   for (std::size_t s = grids_.size() - 1; s-- > 0;) {
     for (std::size_t cell = 0; cell < grids_[s].values.size(); ++cell) {
-      const std::size_t wider = parent(s, cell);
+      const std::size_t wider = parent(static_cast<int>(s), cell);
       around[s][cell] = around[s + 1][wider] + grids_[s + 1].values[wider];
     }
   }
@@ -71,11 +72,11 @@ std::vector<std::vector<double>> ErrorCells::totals_with(bool of_largest) const 
   return within;
 }
 
-std::vector<std::vector<double>> ErrorCells::totals() const {
+CellNumbers ErrorCells::totals() const {
   return totals_with(true);
 }
 
-std::vector<std::vector<double>> ErrorCells::least_totals() const {
+CellNumbers ErrorCells::least_totals() const {
   return totals_with(false);
 }
 

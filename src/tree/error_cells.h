@@ -5,6 +5,9 @@
 
 namespace splotchcl {
 
+// A number for each cell of each scale.
+using CellNumbers = std::vector<std::vector<double>>;
+
 // Sums over square cells of a picture, of which nodes count in one about as large as they are
 // drawn: cells of scale 0 have cell_pixels on each side, those of the next scale twice as many.
 class ErrorCells {
@@ -18,6 +21,8 @@ class ErrorCells {
   int scale_of(double pixels) const;
   // The cell that a place lies in, the nearest one beside the picture.
   std::size_t cell_at(int scale, double x, double y) const;
+  // The cell of the next scale around one.
+  std::size_t parent(int scale, std::size_t cell) const;
   std::size_t count(int scale) const { return grid(scale).values.size(); }
   double pixels(int scale) const { return grid(scale).pixels; }  // on each side
   int columns(int scale) const { return grid(scale).columns; }
@@ -27,9 +32,9 @@ class ErrorCells {
 
   // Of each cell: its own value, those of all larger cells around it, and the largest sum of
   // smaller ones within it.
-  std::vector<std::vector<double>> totals() const;
+  CellNumbers totals() const;
   // The same with the smallest sum of smaller ones.
-  std::vector<std::vector<double>> least_totals() const;
+  CellNumbers least_totals() const;
 
  private:
   struct Grid {
@@ -39,7 +44,7 @@ class ErrorCells {
   };
   Grid& grid(int scale) { return grids_[static_cast<std::size_t>(scale)]; }
   const Grid& grid(int scale) const { return grids_[static_cast<std::size_t>(scale)]; }
-  std::vector<std::vector<double>> totals_with(bool of_largest) const;
+  CellNumbers totals_with(bool of_largest) const;
 
   std::vector<Grid> grids_;
 };

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,31 +17,46 @@ class FieldPlaces {
  public:
   explicit FieldPlaces(const ScalarMap& map);
   // Of ordered_value().
-  float operator()(std::uint32_t ordered) const;
+  float operator()(std::uint32_t ordered) const {
+    const std::size_t half = ordered >> 16;
+    const float from = places_[half], to = places_[half + 1];
+    const float part = static_cast<float>(ordered & 0xffffU) * 0x1p-16f;
+    const float place = from + part * (to - from);
+    return std::isfinite(place) ? std::clamp(place, 0.0f, 1.0f) : exact(ordered);
+  }
 
  private:
+  float exact(std::uint32_t ordered) const;
+
   ScalarMap map_;
-  std::vector<float> places_;  // before they are clamped
+  std::vector<float> places_;  // before they are clamped, the last one twice
 };
 
 // A palette's emission, and how long its way is.
 class PaletteWay {
  public:
   explicit PaletteWay(const Palette& palette);
-  std::array<float, 3> color(float place) const;
-  // How far colors between two places may lie apart in any channel, at most.
-  float spread(float a, float b) const;
-
- private:
-  struct Knot {
+  // Colors between two places lie apart in any channel by at most the way between them.
+  struct Step {
     std::array<float, 3> color{};
     float way = 0;  // from the first knot
   };
-  float way(float place) const;
-  // The knot below a place, and how far it is to the next.
-  std::pair<std::size_t, float> below(float place) const;
+  Step step(float place) const {
+    if (knots_.size() == 1) return knots_.front();
+    const float at = place * static_cast<float>(knots_.size() - 1);
+    const auto below = std::min(static_cast<std::size_t>(at), knots_.size() - 2);
+    const float part = at - static_cast<float>(below);
+    Step step = knots_[below];
+    const Step& next = knots_[below + 1];
+    for (std::size_t c = 0; c < 3; ++c)
+      step.color[c] += part * (next.color[c] - step.color[c]);
+    step.way += part * (next.way - step.way);
+    return step;
+  }
+  std::array<float, 3> color(float place) const { return step(place).color; }
 
-  std::vector<Knot> knots_;
+ private:
+  std::vector<Step> knots_;
 };
 
 }  // namespace splotchcl

@@ -1,5 +1,7 @@
 #include "tree/merged_drawing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,13 +17,15 @@
 namespace splotchcl {
 namespace {
 
+// Particles over a pixel times the squared tolerance.
+constexpr double least_gain = 0.015;
 constexpr double part_of_nodes = 0.7;       // of the tolerance
 constexpr double verified_finer = 4;        // error of the cut to which a picture is compared
 constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
 constexpr double most_found = 0.65;         // of the promise, on blocks that are verified
 constexpr int most_cuts = 3;
-constexpr int blocks_of_region = 4;  // on each side
-constexpr std::size_t regions_of_each_kind = 4;
+constexpr int blocks_of_region = 2;  // on each side
+constexpr std::size_t regions_of_each_kind = 8;
 
 // Squares of blocks, as far as the crop reaches.
 std::vector<Rectangle> all_regions(const Rectangle& crop) {
@@ -92,10 +96,11 @@ double largest_difference(const Image& picture, const Image& finer, const Rectan
 // Regions are drawn together: elsewhere that picture shows a part of its light.
 void verify(const Frame& frame, double error, const std::vector<Rectangle>& regions,
             const std::function<Image(const Frame&)>& draw, MergedDrawing& drawing) {
-  TreeCut finer = cut_tree(frame, {error / verified_finer, regions});
+  TreeCut finer = cut_tree(frame, {error / verified_finer, regions, 2});
   finer.frame.tolerance = verified_tolerance * frame.tolerance;
   const Image exact = draw(finer.frame);
   drawing.visited += finer.visited;
+  drawing.bytes += finer.bytes;
   drawing.found = 0;
   drawing.verified_blocks = 0;
   for (const Rectangle& region : regions) {
@@ -108,12 +113,28 @@ void verify(const Frame& frame, double error, const std::vector<Rectangle>& regi
 
 }  // namespace
 
+bool tree_pays(const Frame& frame) {
+  const double pixels = static_cast<double>(frame.width) * frame.height;
+  const double over_pixel = static_cast<double>(particle_count(frame)) / pixels;
+  return has_served_component(frame) && over_pixel * frame.tolerance * frame.tolerance > least_gain;
+}
+
+std::string explain_tree(const Frame& frame) {
+  const TreeCut cut = cut_tree(frame, {part_of_nodes * frame.tolerance, {}, 2});
+  return fmt::format(
+      "tree: {} nodes and {} particles in place of {}, found among {} nodes, {:.0f} MB of the "
+      "tree; "
+      "by estimate they err by {:.2f} of the tolerance\n",
+      cut.nodes, cut.particles, particle_count(frame), cut.visited,
+      static_cast<double>(cut.bytes) / 1e6, cut.estimate / frame.tolerance);
+}
+
 std::optional<MergedDrawing> draw_merged(const Frame& frame,
                                          const std::function<Image(const Frame&)>& draw) {
   MergedDrawing drawing;
   double error = part_of_nodes * frame.tolerance;
   for (drawing.cuts = 1; drawing.cuts <= most_cuts; ++drawing.cuts) {
-    TreeCut cut = cut_tree(frame, {error, {}});
+    TreeCut cut = cut_tree(frame, {error, {}, 2});
     const bool is_worth_it = cut.nodes + cut.particles < particle_count(frame) / 4;
     if (drawing.cuts > 1 && !is_worth_it) return std::nullopt;
     cut.frame.tolerance = (1 - part_of_nodes) * frame.tolerance;
@@ -121,6 +142,8 @@ std::optional<MergedDrawing> draw_merged(const Frame& frame,
     drawing.nodes = cut.nodes;
     drawing.particles = cut.particles;
     drawing.visited += cut.visited;
+    drawing.bytes += cut.bytes;
+    drawing.estimate = cut.estimate / frame.tolerance;
     verify(frame, error, verified_regions(frame, cut.alike), draw, drawing);
     if (drawing.found <= most_found) return drawing;
     error *= std::max(0.2, 0.5 / drawing.found);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "splotchcl/frame.h"
 #include "splotchcl/image.h"
@@ -14,12 +15,21 @@ struct MergedDrawing {
   Image image;
   std::uint64_t nodes = 0, particles = 0;  // that were drawn
   std::uint64_t visited = 0;               // nodes that were looked at
+  std::uint64_t bytes = 0;                 // of the tree, for these
+  double estimate = 0;                     // of what nodes err by, over what is promised
   int cuts = 0;                            // that were drawn until it served
   int verified_blocks = 0;                 // of 16 x 16 pixels
   // The largest difference there from a cut four times as fine, over what is promised. An estimate,
   // as the promise of merged particles is.
   double found = 0;
 };
+
+// Whether a tree serves some of a frame, and so many particles lie over a pixel that it takes less
+// time than they do (docs/dev/performance.md).
+bool tree_pays(const Frame& frame);
+
+// A line of the first cut of such a frame, without drawing it.
+std::string explain_tree(const Frame& frame);
 
 // Draws a frame with nodes in place of particles (tree_cut.h), so that nodes take seven tenths of
 // its tolerance. A share of the picture's blocks, those where nodes might err alike and others, is

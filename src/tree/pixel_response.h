@@ -15,8 +15,8 @@ struct PixelResponse {
 // That of a Gaussian as wide as the pixel and the Gaussian together, whose n-th derivatives add up
 // to n! / (4 pi w^(2 n + 2)), with w^2 = s^2 + 1/12 (docs/dev/accuracy.md). From s = 0.25 on
 // within a fifth of what a square pixel gives; narrower ones see its edges.
-inline PixelResponse pixel_response(double deviation_pixels) {
-  const double w2 = deviation_pixels * deviation_pixels + 1.0 / 12;
+inline PixelResponse pixel_response(double variance_pixels2) {
+  const double w2 = variance_pixels2 + 1.0 / 12;
   PixelResponse response;
   response.value = 1 / (4 * pi * w2);
   response.first = response.value / w2;

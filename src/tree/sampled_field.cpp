@@ -39,10 +39,15 @@ SampledField SampledField::of(const float* values) {
   return field;
 }
 
-std::uint32_t SampledField::ordered(std::size_t member) const {
+std::array<std::uint32_t, sampled_members> SampledField::all_ordered() const {
   const std::uint64_t least = std::uint64_t{lowest[0]} << 16 | lowest[1];
-  const std::uint64_t above = (span_of(span) * members[member] + parts / 2) / parts;
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(least + above, 0xffffffffU));
+  const std::uint64_t whole = span_of(span);
+  std::array<std::uint32_t, sampled_members> all{};
+  for (std::size_t k = 0; k < sampled_members; ++k) {
+    const std::uint64_t above = (whole * members[k] + parts / 2) / parts;
+    all[k] = static_cast<std::uint32_t>(std::min<std::uint64_t>(least + above, 0xffffffffU));
+  }
+  return all;
 }
 
 }  // namespace splotchcl

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -31,7 +32,8 @@ struct SampledField {
   std::uint8_t members[sampled_members] = {};
 
   static SampledField of(const float* values);
-  std::uint32_t ordered(std::size_t member) const;
+  std::uint32_t ordered(std::size_t member) const { return all_ordered()[member]; }
+  std::array<std::uint32_t, sampled_members> all_ordered() const;
 };
 static_assert(sizeof(SampledField) == 14);
 

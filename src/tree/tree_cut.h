@@ -14,6 +14,9 @@ struct CutSettings {
   double error = 0;
   // Only what may be seen here is drawn, for a frame of this crop; none: the frame's crop.
   std::vector<Rectangle> regions;
+  // So often limits are corrected by what nodes were found to err by. Without, a cut is quick and
+  // keeps its error only roughly.
+  int corrections = 2;
 };
 
 // A frame in which nodes stand for particles where they err by little enough.
@@ -21,6 +24,9 @@ struct TreeCut {
   Frame frame;  // of each component with a tree two: nodes, and particles
   std::uint64_t nodes = 0, particles = 0;
   std::uint64_t visited = 0;  // nodes that were looked at
+  std::uint64_t bytes = 0;    // of the tree, for these
+  // Six standard deviations of what nodes err by, over max(1, light / 2) in sums: the largest.
+  double estimate = 0;
   // Of each block of the crop, over max(1, light): what all its
   // nodes would err by together if they erred alike, as they do around a peak of light and color.
   BlockErrors alike;
@@ -31,7 +37,7 @@ struct TreeCut {
 bool is_served(const Frame& frame, const DrawnComponent& component);
 bool has_served_component(const Frame& frame);
 
-// Looks at nodes from the roots on, level by level, each at most once. Deterministic: the same
+// Looks at nodes from the roots on, level by level. Deterministic: the same
 // nodes on any number of threads. Throws DataError where a tree's own numbers do not fit.
 TreeCut cut_tree(const Frame& frame, const CutSettings& settings);
 

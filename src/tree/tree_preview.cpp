@@ -25,17 +25,17 @@ std::optional<Frame> TreePreview::of(const Frame& frame, std::uint64_t most_spla
       std::all_of(seen.components.begin(), seen.components.end(),
                   [&](const DrawnComponent& component) { return is_served(seen, component); });
   if (!is_possible) return std::nullopt;
-  TreeCut cut = cut_tree(seen, {error_, {}});
+  TreeCut cut = cut_tree(seen, {error_, {}, 0});
   while (splats_of(cut) > most_splats) {
     error_ *= finer;
     if (error_ > most_error) {
       error_ = 1;
       return std::nullopt;
     }
-    cut = cut_tree(seen, {error_, {}});
+    cut = cut_tree(seen, {error_, {}, 0});
   }
   while (splats_of(cut) < most_splats / 2 && error_ > least_error) {
-    TreeCut next = cut_tree(seen, {error_ / finer, {}});
+    TreeCut next = cut_tree(seen, {error_ / finer, {}, 0});
     if (splats_of(next) > most_splats) break;
     error_ /= finer;
     cut = std::move(next);

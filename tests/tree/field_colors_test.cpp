@@ -41,8 +41,8 @@ TEST(PaletteWay, HasThePalettesColorsAndTheLengthOfTheirWay) {
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_NEAR(static_cast<double>(color[c]), exact[c], 1e-6);
   }
-  EXPECT_NEAR(way.spread(0, 1), 1 + 1 + 0.5, 1e-6);
-  EXPECT_NEAR(way.spread(0.5f, 0.5f), 0, 1e-6);
+  EXPECT_NEAR(way.step(1).way, 1 + 1 + 0.5, 1e-6);
+  EXPECT_NEAR(way.step(0).way, 0, 1e-6);
 }
 
 }  // namespace

@@ -199,6 +199,43 @@ TEST_F(MergedDrawings, ErrLessThanAThirdOfWhatRandomPartsDoInPreviews) {
             root_mean_square(draw(random_part(frame, splats)), exact) / 3);
 }
 
+// Over max(1, light), of the pixels of two pictures.
+std::vector<double> differences(const Image& one, const Image& other) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < one.pixels.size(); ++i) {
+    const double a = static_cast<double>(one.pixels[i]), b = static_cast<double>(other.pixels[i]);
+    if (i % 4 != 3) all.push_back((b - a) / std::max(1.0, std::abs(a)));
+  }
+  return all;
+}
+
+// What nodes change from frame to frame beyond what particles do: where a cut changes nothing pops.
+TEST_F(MergedDrawings, ChangeAlongAFlightAsParticlesDoWithinTheTolerance) {
+  const Matter matter = clumps(100000, 27);
+  const auto tree = tree_of(matter);
+  Image last_nodes, last_particles;
+  for (int number = 0; number < 12; ++number) {
+    Frame frame = frame_of(matter, 40, 30);
+    Camera camera;
+    camera.position = {{0.5 + 0.01 * number, -1.6 + 0.02 * number, 0.7}};
+    camera.look_at = {{0.5, 0.5, 0.5}};
+    camera.field_of_view_degrees = 40;
+    frame.camera = make_camera_frame(camera, frame.width, frame.height);
+    plant(frame, tree);
+    const Image particles = draw(frame);
+    const auto nodes = draw_from_tree(frame);
+    ASSERT_TRUE(nodes) << number;
+    if (number > 0) {
+      const auto of_nodes = differences(last_nodes, nodes->image);
+      const auto of_particles = differences(last_particles, particles);
+      for (std::size_t i = 0; i < of_nodes.size(); ++i)
+        ASSERT_NEAR(of_nodes[i], of_particles[i], frame.tolerance) << "frame " << number;
+    }
+    last_nodes = nodes->image;
+    last_particles = particles;
+  }
+}
+
 TEST(TreeCut, OpensAllToParticlesWhereNothingMayErr) {
   const Matter matter = clumps(3000, 23);
   Frame frame = frame_of(matter, 40, 30);
@@ -209,7 +246,7 @@ TEST(TreeCut, OpensAllToParticlesWhereNothingMayErr) {
   camera.projection = Projection::fisheye;
   frame.camera = make_camera_frame(camera, frame.width, frame.height);
   plant(frame, tree_of(matter));
-  const TreeCut cut = cut_tree(frame, {0, {}});
+  const TreeCut cut = cut_tree(frame, {0, {}, 2});
   EXPECT_EQ(cut.nodes, 0u);
   EXPECT_EQ(cut.particles, matter.count());
 }
@@ -218,7 +255,7 @@ TEST(TreeCut, IsTheSameOnAnyNumberOfThreads) {
   const Matter matter = clumps(30000, 24);
   Frame frame = frame_of(matter, 40, 30);
   plant(frame, tree_of(matter));
-  const TreeCut one = cut_tree(frame, {1e-3, {}}), other = cut_tree(frame, {1e-3, {}});
+  const TreeCut one = cut_tree(frame, {1e-3, {}, 2}), other = cut_tree(frame, {1e-3, {}, 2});
   ASSERT_EQ(one.nodes, other.nodes);
   for (std::size_t i = 0; i < one.nodes; ++i) {
     ASSERT_EQ(one.frame.components[0].particles.smoothing_length[i],

@@ -13,6 +13,7 @@
 
 #include "common/quiet_errors.h"
 #include "common/utf8.h"
+#include "film/drawing/tree_choice.h"
 #include "parallel/in_background.h"
 #include "pictures/other_scenes.h"
 #include "ranks/spread_particles.h"
@@ -24,10 +25,6 @@
 
 namespace splotchcl {
 namespace {
-
-// Particles over a pixel times the squared tolerance: above it a tree takes less time than the
-// particles (docs/dev/performance.md).
-constexpr double least_gain_of_trees = 0.03;
 
 // Of several views the one that keeps its promise least well counts.
 void add(const FrameCheck& frame, FrameCheck& total) {
@@ -86,6 +83,8 @@ void add(const MergedDrawing& frame, TreeStats& total) {
   total.nodes += frame.nodes;
   total.particles += frame.particles;
   total.visited += frame.visited;
+  total.bytes += frame.bytes;
+  total.estimate = std::max(total.estimate, frame.estimate);
   total.cuts += frame.cuts;
   total.verified_blocks += frame.verified_blocks;
   total.found = std::max(total.found, frame.found);
@@ -172,7 +171,7 @@ struct FrameDrawer::State {
 
   Image draw_view(const Frame& view, DrawnFrame& drawn) {
     if (!renderer.valid()) return draw_with_reference(view, drawn.stats);
-    if (uses_tree(view)) {
+    if (draws_tree(view)) {
       if (auto merged =
               draw_merged(view, [&](const Frame& f) { return draw_alone(f, drawn.stats); })) {
         add(*merged, drawn.tree);
@@ -183,24 +182,20 @@ struct FrameDrawer::State {
       }
       drawn.notes.push_back(
           "the tree of merged particles does not serve this picture: blocks of it that were drawn "
-          "again differ by too much of the tolerance; the particles were drawn");
+          "again differ by too much of the tolerance, and finer nodes would be a quarter of all "
+          "particles or more; the particles were drawn");
     }
     return draw_alone(view, drawn.stats);
   }
 
-  // Where many particles lie over a pixel, unless the scene says.
-  bool uses_tree(const Frame& view) const {
-    if (tree == TreeUse::never || plan_options.certify || view.tolerance == 0) return false;
-    const bool is_possible = has_served_component(view);
-    if (tree == TreeUse::only && !is_possible) {
+  bool draws_tree(const Frame& view) const {
+    if (plan_options.certify) return false;
+    if (tree == TreeUse::only && !has_served_component(view)) {
       throw UsageError(
           "--tree only: found a scene that no tree serves, expected one with kernel.footprint "
           "above 0 and a tree beside its snapshot (splotchcl tree); docs/tree.md tells what else");
     }
-    const double pixels = static_cast<double>(view.width) * view.height;
-    const double gain =
-        static_cast<double>(particle_count(view)) / pixels * view.tolerance * view.tolerance;
-    return is_possible && (tree == TreeUse::only || gain > least_gain_of_trees);
+    return uses_tree(view, tree);
   }
 
   Image draw_alone(const Frame& view, RenderStats& total) {
@@ -220,6 +215,7 @@ struct FrameDrawer::State {
     if (is_kept) {
       errors.back() *= gain;
       drawn.tree.found *= gain;
+      drawn.tree.estimate *= gain;
     } else {
       drawn.stats.check = {};
       drawn.tree = {};

@@ -1,0 +1,113 @@
+#include "tree/node_merging.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/hash.h"
+#include "tree/node_bytes.h"
+
+namespace splotchcl {
+namespace {
+
+// Members without flux widen only where the node reaches.
+NodeMoments merged_with_dark_ones(const std::vector<const NodeMoments*>& parts,
+                                  const std::vector<TreeMember>& members) {
+  double flux = 0;
+  for (const NodeMoments* const part : parts)
+    flux += part->flux;
+  if (flux > 0) return NodeMoments::merged(parts);
+  std::vector<NodeMoments> equal;
+  for (const TreeMember& member : members) {
+    equal.push_back(member.moments);
+    equal.back().flux = 1;
+  }
+  std::vector<const NodeMoments*> pointers;
+  for (const NodeMoments& part : equal)
+    pointers.push_back(&part);
+  NodeMoments dark = NodeMoments::merged(pointers);
+  dark.flux = 0;
+  return dark;
+}
+
+// In [0, 1), of the node and the eighth alone.
+double random_of(const NodeMoments& moments, std::size_t k) {
+  WordHash hash;
+  for (const double number : moments.centroid.a)
+    hash.add(number);
+  hash.add(static_cast<std::uint64_t>(k));
+  return static_cast<double>(hash_of(hash.value()) >> 11) * 0x1p-53;
+}
+
+// Eight that stand for an eighth of the flux each, in the order of the first field: the one in
+// whose share a random place of each eighth lies, so that any function of the fields has the
+// members' mean.
+TreeSamples resampled(const std::vector<TreeMember>& members, const NodeMoments& moments) {
+  std::vector<TreeSample> all;
+  for (const TreeMember& member : members) {
+    const auto* const first = member.samples.samples.data();
+    all.insert(all.end(), first, first + member.samples.count);
+  }
+  std::stable_sort(all.begin(), all.end(), [](const TreeSample& a, const TreeSample& b) {
+    return a.values[0] < b.values[0];
+  });
+  double total = 0;
+  for (const TreeSample& sample : all)
+    total += sample.flux;
+  if (!(total > 0)) {
+    total = 0;
+    for (TreeSample& sample : all)
+      total += sample.flux = 1;
+  }
+  TreeSamples chosen;
+  double before = 0;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < sampled_members; ++k) {
+    const double at = (static_cast<double>(k) + random_of(moments, k)) * total / sampled_members;
+    while (next + 1 < all.size() && before + all[next].flux <= at)
+      before += all[next++].flux;
+    TreeSample sample = all[next];
+    sample.flux = moments.flux / sampled_members;
+    chosen.add(sample);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+TreeMember merge(const std::vector<TreeMember>& members, bool has_fields) {
+  std::vector<const NodeMoments*> parts;
+  for (const TreeMember& member : members) {
+    if (member.moments.flux > 0) parts.push_back(&member.moments);
+  }
+  if (parts.empty()) {  // dark ones, which lie anywhere in the cell
+    for (const TreeMember& member : members)
+      parts.push_back(&member.moments);
+  }
+  TreeMember node;
+  node.moments = merged_with_dark_ones(parts, members);
+  if (has_fields) node.samples = resampled(members, node.moments);
+  return node;
+}
+
+TreeNode stored_node(const NodeMoments& moments, int level) {
+  TreeNode node;
+  const double cell = std::exp2(-level);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double place = moments.centroid.a[axis] / cell;
+    const double part = place - std::floor(place);
+    node.place[axis] =
+        static_cast<std::uint16_t>(std::clamp(std::floor(part * 0x1p16), 0.0, 65535.0));
+  }
+  node.deviation = length_bits(std::sqrt(moments.variance()));
+  node.size = length_bits(std::sqrt(moments.h2));
+  const NodeShape shape = shape_of(moments, usual_deviation_per_h);
+  node.third = rough_bits(std::cbrt(shape.third) / cell);
+  node.fourth = rough_bits(std::sqrt(std::sqrt(shape.fourth)) / cell);
+  node.uneven = rough_bits(std::sqrt(shape.uneven) / cell);
+  node.widest = wide_bits(moments.widest);
+  node.reach = rough_bits(1.05 * moments.reach / cell);  // more than is rounded off
+  node.flux = static_cast<float>(moments.flux);
+  return node;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,156 @@
+#include "tree/node_weighing.h"
+
+#include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
+
+#include "tree/node_bytes.h"
+#include "tree/node_color.h"
+#include "tree/pixel_response.h"
+
+namespace splotchcl {
+namespace {
+
+// Nearer to the camera than so many times their reach, or widths, nodes are opened.
+constexpr double nearest_reaches = 20, nearest_widths = 12;
+constexpr double reach_in_sigma = 7;  // no cloud is drawn farther
+
+double square(double x) {
+  return x * x;
+}
+
+// A node's shape in pixels.
+struct ShownShape {
+  double size2 = 0, place2 = 0;  // variances of members' own Gaussians, and of their places
+  double uneven = 0, third = 0, fourth = 0;
+};
+
+ShownShape shown_shape(const TreePart& part, const TreeNode& node, double cell,
+                       double pixels_per_length) {
+  const double scale = pixels_per_length * part.tree().side;
+  ShownShape shape;
+  shape.size2 = square(length_of_bits(node.size) * part.deviation_per_h * scale);
+  shape.place2 = square(length_of_bits(node.deviation) * scale);
+  shape.uneven = square(rough_of_bits(node.uneven) * cell * scale);
+  const double root_of_third = rough_of_bits(node.third) * cell * scale;
+  shape.third = root_of_third * square(root_of_third);
+  shape.fourth = square(square(rough_of_bits(node.fourth) * cell * scale));
+  return shape;
+}
+
+// What the spread of members adds to the width of what they err by: cumulants err as wide as the
+// node itself. Where it is many pixels wide it is more than a few cumulants that count.
+double spread_of_members(double place2, double seen2) {
+  constexpr double part = 0.75, most = 3;
+  return part * std::min(place2, most * (seen2 + 1.0 / 12));
+}
+
+}  // namespace
+
+WeighedNode NodeWeigher::weigh(const TreePart& part, const TreeItem& item,
+                               std::size_t level) const {
+  const TreeOfType& tree = part.tree();
+  const TreeNode& node = tree.levels[level].nodes[item.node];
+  const double cell = std::ldexp(1.0, -static_cast<int>(level));
+  const double reach = tree.side * cell * rough_of_bits(node.reach);
+  const double widest =
+      tree.side * part.deviation_per_h * std::sqrt(2.0) * smoothing_of_bits(node.widest);
+  WeighedNode weighed;
+  weighed.fate = NodeFate::open;
+  const auto place = place_of(part, item, level, reach);
+  if (!place) return weighed;
+  using namespace boost::qvm;
+  const CameraFrame& camera = frame_.camera;
+  const Vec3 offset = *place - camera.position;
+  const Vec3 from = {
+      {dot(offset, camera.right), dot(offset, camera.down), dot(offset, camera.forward)}};
+  if (is_near(from, reach, widest)) {
+    if (is_behind(from, reach)) weighed.fate = NodeFate::unseen;
+    return weighed;
+  }
+  const auto projected = project_point(from, camera, frame_.projection);
+  if (!projected || is_at_limit(projected->depth, reach)) return weighed;
+  if (is_unseen(*projected, reach, widest)) {
+    weighed.fate = NodeFate::unseen;
+    return weighed;
+  }
+  weigh_error(part, item, level, *projected, weighed);
+  return weighed;
+}
+
+// Members would lie at other depths, and be larger or smaller, than the node.
+bool NodeWeigher::is_near(const Vec3& from, double reach, double widest) const {
+  if (frame_.projection == Projection::orthographic) return false;
+  const bool is_flat =
+      frame_.projection == Projection::perspective || frame_.projection == Projection::cube;
+  const double distance = is_flat ? from.a[2] : boost::qvm::mag(from);
+  return distance < nearest_reaches * reach || distance < nearest_widths * widest + reach;
+}
+bool NodeWeigher::is_behind(const Vec3& from, double reach) const {
+  return frame_.projection == Projection::perspective && from.a[2] + reach < 0;
+}
+// All members have to be within limits, or none.
+bool NodeWeigher::is_at_limit(double depth, double reach) const {
+  if (frame_.near_limit && std::abs(depth - *frame_.near_limit) <= 1.01 * reach) return true;
+  return frame_.far_limit && std::abs(depth - *frame_.far_limit) <= 1.01 * reach;
+}
+bool NodeWeigher::is_beyond_limits(double depth) const {
+  return (frame_.near_limit && depth < *frame_.near_limit) ||
+         (frame_.far_limit && depth > *frame_.far_limit);
+}
+
+bool NodeWeigher::is_unseen(const Projected& at, double reach, double widest) const {
+  if (is_beyond_limits(at.depth)) return true;
+  if (frame_.projection != Projection::perspective && frame_.projection != Projection::orthographic)
+    return false;
+  const double scale = 1.06 * at.pixels_per_length;
+  const double pixels =
+      scale * (reach + reach_in_sigma * widest) + 10 * frame_.kernel.footprint_pixels + 2 +
+      0.06 * (std::abs(at.x - frame_.camera.center_x) + std::abs(at.y - frame_.camera.center_y)) *
+          (frame_.projection == Projection::perspective
+               ? std::min(1.0, 20 * reach / std::max(at.depth, 1e-300))
+               : 0);
+  return std::none_of(regions_.begin(), regions_.end(), [&](const Rectangle& region) {
+    return at.x + pixels >= region.x && at.x - pixels <= region.x + region.width &&
+           at.y + pixels >= region.y && at.y - pixels <= region.y + region.height;
+  });
+}
+
+void NodeWeigher::weigh_error(const TreePart& part, const TreeItem& item, std::size_t level,
+                              const Projected& at, WeighedNode& weighed) const {
+  const TreeLevel& of_level = part.tree().levels[level];
+  const TreeNode& node = of_level.nodes[item.node];
+  const double cell = std::ldexp(1.0, -static_cast<int>(level));
+  const ShownShape shape = shown_shape(part, node, cell, at.pixels_per_length);
+  const double footprint2 = square(frame_.kernel.footprint_pixels);
+  const double seen2 = footprint2 + shape.size2;
+  const PixelResponse narrow = pixel_response(seen2);
+  const PixelResponse spread = pixel_response(seen2 + spread_of_members(shape.place2, seen2));
+  const double light =
+      static_cast<double>(node.flux) * part.light_per_flux * square(at.pixels_per_length);
+  const NodeColor color = node_color(part, of_level, item.node);
+  const double least_amplitude = std::max(1.0, part.least_amplitude);
+  const double amplitude =
+      least_amplitude *
+      static_cast<double>(std::max({color.mean[0], color.mean[1], color.mean[2]}));
+  // A node errs by no more than all of its light, here and there.
+  const double of_shape =
+      std::min(2 * narrow.value, square(shape.uneven) * spread.second / 20 +
+                                     square(shape.third) * spread.third / 360 +
+                                     square(shape.fourth) * spread.fourth / 8640);
+  const double of_places =
+      square(amplitude) * of_shape +
+      square(least_amplitude * color.deviation) * shape.place2 * spread.first / 3;
+  const double of_samples = square(least_amplitude) * color.variance * narrow.value;
+  weighed.error2 = static_cast<float>(square(light) * (of_places + of_samples));
+  weighed.largest2 =
+      static_cast<float>(square(light) * (of_places / spread.area + of_samples / narrow.area));
+  weighed.scale = static_cast<std::uint8_t>(cells_.scale_of(2 * std::sqrt(seen2 + shape.place2)));
+  weighed.cell = static_cast<std::uint32_t>(
+      cells_.cell_at(weighed.scale, at.x - frame_.crop.x, at.y - frame_.crop.y));
+  weighed.light = static_cast<float>(light * amplitude);
+  weighed.color = color.mean;
+  weighed.fate = NodeFate::weighed;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "scene/projection.h"
+#include "splotchcl/frame.h"
+#include "tree/error_cells.h"
+#include "tree/tree_parts.h"
+
+namespace splotchcl {
+
+enum class NodeFate : std::uint8_t { unseen, open, weighed };
+
+// What a node would err by if it were drawn, and where.
+struct WeighedNode {
+  float error2 = 0;    // squared, added up over pixels
+  float largest2 = 0;  // squared, in one pixel
+  float light = 0;
+  std::uint32_t cell = 0;  // of its scale
+  std::uint8_t scale = 0;
+  NodeFate fate = NodeFate::unseen;
+  std::array<float, 3> color{};
+};
+
+// Looks at nodes as a frame shows them.
+class NodeWeigher {
+ public:
+  // Only what may be seen in the regions counts. All have to stay.
+  NodeWeigher(const Frame& frame, const std::vector<Rectangle>& regions, const ErrorCells& cells)
+      : frame_(frame), regions_(regions), cells_(cells) {}
+
+  WeighedNode weigh(const TreePart& part, const TreeItem& item, std::size_t level) const;
+
+ private:
+  bool is_near(const Vec3& from, double reach, double widest) const;
+  bool is_behind(const Vec3& from, double reach) const;
+  bool is_at_limit(double depth, double reach) const;
+  bool is_beyond_limits(double depth) const;
+  bool is_unseen(const Projected& at, double reach, double widest) const;
+  void weigh_error(const TreePart& part, const TreeItem& item, std::size_t level,
+                   const Projected& at, WeighedNode& weighed) const;
+
+  const Frame& frame_;
+  const std::vector<Rectangle>& regions_;
+  const ErrorCells& cells_;
+};
+
+}  // namespace splotchcl

@@ -1,0 +1,66 @@
+#include "tree/tree_parts.h"
+
+#include <cmath>
+#include <utility>
+
+#include "scene/constants.h"
+#include "tree/tree_cut.h"
+
+namespace splotchcl {
+namespace {
+
+TreePart tree_part(const Frame& frame, std::size_t component, const TreeOfComponent::Part& part) {
+  const DrawnComponent& drawn = frame.components[component];
+  TreePart made;
+  made.component = component;
+  made.part = &part;
+  made.of_component = drawn.particles.tree.get();
+  made.drawn = &drawn;
+  made.palette.emplace(drawn.palette);
+  if (part.color >= 0) made.color_places.emplace(drawn.color);
+  if (part.intensity >= 0) made.intensities.emplace(drawn.intensity);
+  const double width = frame.kernel.width * drawn.size_factor;
+  made.deviation_per_h = width / std::sqrt(2.0);
+  const double factor = drawn.weight == WeightModel::mass ? 1
+                        : drawn.weight == WeightModel::constant
+                            ? pi * width * frame.kernel.width
+                            : std::pow(pi, 1.5) * width * width * width;
+  made.light_per_flux = factor * drawn.brightness / drawn.reference_column;
+  if (drawn.absorption.kind == Absorption::Kind::factor && drawn.brightness > 0)
+    made.least_amplitude = drawn.absorption.factor / drawn.brightness;
+  return made;
+}
+
+}  // namespace
+
+std::vector<TreePart> tree_parts(const Frame& frame) {
+  std::vector<TreePart> parts;
+  for (std::size_t c = 0; c < frame.components.size(); ++c) {
+    if (!is_served(frame, frame.components[c])) continue;
+    for (const TreeOfComponent::Part& part : frame.components[c].particles.tree->parts)
+      parts.push_back(tree_part(frame, c, part));
+  }
+  return parts;
+}
+
+std::optional<Vec3> place_of(const TreePart& part, const TreeItem& item, std::size_t level,
+                             double reach) {
+  const TreeOfType& tree = part.tree();
+  const TreeNode& node = tree.levels[level].nodes[item.node];
+  const double cell = std::ldexp(tree.side, -static_cast<int>(level));
+  Vec3 place = {{0, 0, 0}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double part_of_cell = (static_cast<double>(node.place[axis]) + 0.5) * 0x1p-16;
+    place.a[axis] = tree.origin.a[axis] + cell * (item.cell[axis] + part_of_cell);
+    const double period = part.of_component->period.a[axis];
+    if (!(period > 0)) continue;
+    const double center = part.of_component->center.a[axis];
+    double d = place.a[axis] - center;
+    d -= period * std::round(d / period);
+    if (std::abs(d) + reach > 0.5 * period) return std::nullopt;
+    place.a[axis] = center + d;
+  }
+  return place;
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,135 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "device/pictures.h"
+#include "splotchcl/reference.h"
+#include "tree/merged_drawing.h"
+#include "tree/tree_scenes.h"
+
+// Scenes whose nodes err alike, or by more than their moments tell: frames keep their promise, or
+// are drawn from particles.
+namespace splotchcl::test {
+namespace {
+
+class AdverseScenes : public PictureTest {
+ protected:
+  static void expect_kept(Frame frame, const std::shared_ptr<const TreeOfType>& tree,
+                          const std::string& what) {
+    plant(frame, tree);
+    for (const double tolerance : {1e-2, 3e-3}) {
+      frame.tolerance = tolerance;
+      const auto drawing = draw_merged(frame, [](const Frame& part) { return draw(part); });
+      if (!drawing) continue;
+      ++served();
+      const ReferenceImage exact = reference::render(frame);
+      double worst = 0;
+      for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+        if (i % 4 == 3) continue;
+        const double error =
+            std::abs(static_cast<double>(drawing->image.pixels[i]) - exact.pixels[i]);
+        worst = std::max(worst, error / std::max(1.0, std::abs(exact.pixels[i])));
+      }
+      EXPECT_LE(worst / tolerance, 1) << what << " at " << tolerance;
+    }
+  }
+  static int& served() {
+    static int count = 0;
+    return count;
+  }
+
+  static Frame seen_from(const Matter& matter, const Vec3& position, Projection projection) {
+    Frame frame = frame_of(matter, 32, 32);
+    Camera camera;
+    camera.position = position;
+    camera.look_at = {{0.5, 0.5, 0.5}};
+    camera.sky = {{0.1, 0, 1}};
+    camera.projection = projection;
+    frame.camera = make_camera_frame(camera, frame.width, frame.height);
+    frame.projection = projection;
+    return frame;
+  }
+};
+
+Matter lattice(int side, const std::function<double(int, int, int)>& color) {
+  Matter matter;
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      for (int z = 0; z < side; ++z)
+        matter.add((x + 0.5) / side, (y + 0.5) / side, (z + 0.5) / side, 0.6 / side, 1,
+                   color(x, y, z));
+    }
+  }
+  return matter;
+}
+
+TEST_F(AdverseScenes, LatticesAlongTheirAxes) {
+  const Matter matter = lattice(36, [](int, int, int) { return 1.0; });
+  const auto tree = tree_of(matter);
+  for (const Vec3& from : {Vec3{{0.5, -3, 0.5}}, Vec3{{-3, 0.5, 0.5}}, Vec3{{3, 3, 0.5}}}) {
+    expect_kept(seen_from(matter, from, Projection::orthographic), tree, "orthographic");
+    expect_kept(seen_from(matter, from, Projection::perspective), tree, "perspective");
+  }
+}
+
+TEST_F(AdverseScenes, FieldsThatAlternateFromParticleToParticle) {
+  const Matter matter =
+      lattice(32, [](int x, int y, int z) { return (x + y + z) % 2 == 0 ? 0.14 : 7.0; });
+  expect_kept(seen_from(matter, {{0.5, -3, 0.5}}, Projection::orthographic), tree_of(matter),
+              "alternating");
+}
+
+TEST_F(AdverseScenes, SheetsSeenFromTheirEdgeAndFromTheirFace) {
+  std::mt19937_64 random(51);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Matter matter;
+  for (int i = 0; i < 50000; ++i)
+    matter.add(uniform(random), 0.5 + 1e-3 * uniform(random), uniform(random), 0.004, 1,
+               std::exp(uniform(random)));
+  const auto tree = tree_of(matter);
+  for (const Vec3& from : {Vec3{{0.5, -3, 0.5}}, Vec3{{-3, 0.5, 0.5}}, Vec3{{-2, -2, 1}}})
+    expect_kept(seen_from(matter, from, Projection::perspective), tree, "sheet");
+}
+
+TEST_F(AdverseScenes, TwoClumpsAstrideAnEdgeOfPixelsAndOfCells) {
+  std::mt19937_64 random(52);
+  std::normal_distribution<double> normal;
+  for (const double apart : {1e-3, 1e-2, 3e-2}) {
+    Matter matter;
+    for (int i = 0; i < 40000; ++i) {
+      const double side = i % 2 == 0 ? -apart : apart;
+      matter.add(0.5 + side + 0.1 * apart * normal(random), 0.5 + 0.1 * apart * normal(random),
+                 0.5 + 0.1 * apart * normal(random), 0.1 * apart, 1, i % 2 == 0 ? 0.2 : 5);
+    }
+    matter.add(0, 0, 0, 0.01, 1, 1);
+    matter.add(1, 1, 1, 0.01, 1, 1);
+    const auto tree = tree_of(matter);
+    for (const double moved : {0.0, 0.003, 0.01}) {
+      expect_kept(seen_from(matter, {{0.5 + moved, -3, 0.5}}, Projection::orthographic), tree,
+                  "clumps " + std::to_string(apart));
+    }
+  }
+}
+
+TEST_F(AdverseScenes, PalettesOfSteps) {
+  const Matter matter = clumps(60000, 53, 1);
+  Frame frame = frame_of(matter, 32, 32);
+  auto& knots = frame.components.front().palette.emission;
+  knots.assign(65, Rgb{0, 0, 0.1f});
+  for (std::size_t k = 32; k < knots.size(); ++k)
+    knots[k] = Rgb{1, 0.5f, 0};
+  knots[20] = Rgb{0, 20, 0};
+  expect_kept(frame, tree_of(matter), "steps");
+}
+
+TEST_F(AdverseScenes, AreNotAllDrawnFromParticles) {
+  const Matter matter = clumps(60000, 54);
+  served() = 0;
+  expect_kept(frame_of(matter, 32, 32), tree_of(matter), "clumps");
+  EXPECT_GT(served(), 0);
+}
+
+}  // namespace
+}  // namespace splotchcl::test
