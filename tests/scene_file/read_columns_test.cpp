@@ -25,9 +25,8 @@ TEST(ReadColumns, AreWrittenAsTheyAreRead) {
 
 TEST(ReadColumns, OfOtherKindsAreRefused) {
   for (const char* const value : {"{x = true}", "{}", "{x = \"\"}", "{\"x=y\" = \"a\"}"}) {
-    EXPECT_THAT(
-        [&] { parse_scene(start + "[read]\ncolumns = " + value + "\n", "scene.toml"); },
-        ::testing::ThrowsMessage<UsageError>(HasSubstr("a table of strings by name")))
+    EXPECT_THAT([&] { parse_scene(start + "[read]\ncolumns = " + value + "\n", "scene.toml"); },
+                ::testing::ThrowsMessage<UsageError>(HasSubstr("a table of strings by name")))
         << value;
   }
 }
