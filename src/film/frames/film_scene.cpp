@@ -100,38 +100,6 @@ Camera upright(Camera camera, const ImageSettings& image) {
 
 }  // namespace
 
-namespace {
-
-constexpr int frames_of_itself = 250;  // ten seconds
-
-// A setting of a key that keyframes have, as text.
-Keyframe at_snapshot(double frame, const ListedSnapshot& snapshot) {
-  return {frame, {{"time.index", fmt::format("{}", snapshot.index)}}};
-}
-
-// What says nothing of a path shows all of its snapshots, or one from all sides.
-std::string suggest_path(Scene& scene) {
-  if (scene.path.is_set() || scene.movie.frames) return {};
-  scene.movie.frames = frames_of_itself;
-  if (!scene.time.is_set()) {
-    scene.path.orbit.emplace();
-    return fmt::format("no path: an orbit of 360 degrees in {} frames (path.orbit, movie.frames)",
-                       frames_of_itself);
-  }
-  const std::vector<ListedSnapshot> list = list_snapshots(scene.time);
-  if (scene.time.interpolation == Interpolation::none)
-    scene.movie.frames = static_cast<int>(list.size());
-  scene.path.is_smooth = false;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const double part = list.size() > 1 ? double(i) / double(list.size() - 1) : 0;
-    scene.path.keyframes.push_back(at_snapshot(part * (*scene.movie.frames - 1), list[i]));
-  }
-  return fmt::format("no path: {} snapshots in {} frames (path.keyframes, movie.frames)",
-                     list.size(), *scene.movie.frames);
-}
-
-}  // namespace
-
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
                      const std::shared_ptr<Communicator>& ranks, const FilmTarget& target)
     : ranks_(ranks) {
@@ -140,15 +108,16 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   SceneWithSnapshot opened = open_scene(path, settings, ranks);
   scene_ = std::move(opened.scene);
   notes_ = std::move(opened.notes);
-  const std::string suggested = suggest_path(scene_);
-  if (!suggested.empty()) notes_.push_back(suggested);
   watch_files();
   opening.check();
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
-  // A scene file says itself what its film is.
-  if (opened.suggested || !target.name.empty()) suggest_film(target, *snapshot_at(scene_), scene_);
+  // A scene file that says how long its film is says what it is, too.
+  if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {
+    const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);
+    if (!note.empty()) notes_.push_back(note);
+  }
   path_.emplace(scene_, notes_, find_followed);
   path_->check(scene_);
   watch_files();

@@ -44,12 +44,17 @@ Keyframe at_index(double frame, double index) {
   return keyframe;
 }
 
-// All snapshots in their order, or as many as the scene's frames have time for.
-std::vector<Keyframe> time_lapse(const Scene& scene) {
-  const std::vector<ListedSnapshot> list = list_snapshots(scene.time);
+// Through the whole time; where nothing comes between snapshots, from one to the next.
+std::vector<Keyframe> time_lapse(const Scene& scene, const std::vector<ListedSnapshot>& list) {
   const int last = *scene.movie.frames - 1;
   if (list.size() < 2 || last == 0) return {};
-  return {at_index(0, list.front().index), at_index(last, list.back().index)};
+  if (scene.time.interpolation != Interpolation::none)
+    return {at_index(0, list.front().index), at_index(last, list.back().index)};
+  std::vector<Keyframe> keyframes;
+  const double step = static_cast<double>(last) / static_cast<double>(list.size() - 1);
+  for (const ListedSnapshot& snapshot : list)
+    keyframes.push_back(at_index(step * static_cast<double>(keyframes.size()), snapshot.index));
+  return keyframes;
 }
 
 // A full turn about a snapshot, a part of one about what changes.
@@ -58,6 +63,12 @@ Orbit slow_orbit(bool is_series) {
   orbit.degrees = is_series ? 90 : 360;
   orbit.is_eased = true;
   return orbit;
+}
+
+std::string note_of(const Scene& scene, std::size_t snapshots) {
+  const std::string time = snapshots > 0 ? fmt::format("{} snapshots and ", snapshots) : "";
+  return fmt::format("no path: {}an orbit of {:g} degrees in {} frames (path, movie.frames)", time,
+                     scene.path.orbit->degrees, *scene.movie.frames);
 }
 
 // In a periodic box the box is shown around the target from the start: nothing comes in at its
@@ -75,7 +86,7 @@ void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
 
 }  // namespace
 
-void suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene) {
+std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene) {
   PathSettings& path = scene.path;
   const bool has_target = !target.name.empty(), is_series = scene.time.is_set();
   if (path.is_set() && has_target) {
@@ -84,17 +95,23 @@ void suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& sce
         "path.follow and path.approach say the same in a scene",
         option_of(target)));
   }
-  if (path.is_set()) return;
-  if (!scene.movie.frames) scene.movie.frames = usual_frames;
-  if (is_series) path.keyframes = time_lapse(scene);
+  if (path.is_set()) return "";
+  const std::vector<ListedSnapshot> list =
+      is_series ? list_snapshots(scene.time) : std::vector<ListedSnapshot>();
+  const bool has_jumps = is_series && scene.time.interpolation == Interpolation::none;
+  if (!scene.movie.frames)
+    scene.movie.frames = has_jumps ? static_cast<int>(list.size()) : usual_frames;
+  if (has_jumps) path.is_smooth = false;
+  path.keyframes = time_lapse(scene, list);
   if (!target.is_approached) path.orbit = slow_orbit(is_series);
-  if (!has_target) return;
+  if (!has_target) return note_of(scene, list.size());
   path.follow = follow_of(target);
   show_box_around_target(snapshot, scene);
-  if (!target.is_approached) return;
+  if (!target.is_approached) return "";
   path.approach.emplace();
   // Close to the densest place there is far more light than in the whole.
   if (!scene.finish.exposure) scene.finish.exposure_follows = true;
+  return "";
 }
 
 }  // namespace splotchcl

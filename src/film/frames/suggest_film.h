@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "splotchcl/film.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
@@ -11,7 +13,7 @@ namespace splotchcl {
 // what the scene's camera shows to the densest place or a halo, through time where there is a
 // sequence; or it orbits around that all along. What the scene says of frames stays. The scene has
 // a camera, and its components. `snapshot` is one of the scene's. Throws UsageError for a target
-// that is none, and for one in a scene with a path.
-void suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene);
+// that is none, and for one in a scene with a path. Returns a note of what was chosen, or "".
+std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene);
 
 }  // namespace splotchcl

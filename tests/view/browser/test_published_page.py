@@ -23,6 +23,7 @@ def page(run, snapshot, tmp_path_factory):
 
 @pytest.fixture
 def opened(browser, page):
+    browser.get_log("browser")  # of other pages
     browser.get(f"file://{page}/page.html")
     browser.execute_script(
         "const s = document.getElementById('picture').style;"
