@@ -437,6 +437,7 @@ def the_tables_of_astropy_are_read(files):
     [("table.fits", "it is a FITS file; convert it to HDF5 or to a NumPy array"),
      ("table.vot", "it is a VOTable; write it as ECSV or HDF5"),
      ("latex.txt", "it is a LaTeX table; write it as CSV or ECSV")],
+    ids=["FITS", "VOTable", "LaTeX"],
 )
 def test_tables_that_are_not_read_are_refused_with_advice(files, program, command, name, advice):
     endings = {"map": "npy", "render": "png", "movie": "mp4"}
@@ -458,6 +459,8 @@ def hdf5_of_other_programs_is_read(files):
         names = {"smoothing_length": "h", "mass": "m", "density": "rho", "temperature": "temp"}
         assert_reads_group(snapshot["gas"], steps, f"Step#{step}", names)
     assert 1 == mass_in_map(steps, (55, 0, 0), 12)
+    with pytest.raises(DataError, match="no particles in a group Step#12.*/Step#0 to /Step#11"):
+        Snapshot(steps / "Step#12")
 
     records = hdf5(files / "b10_compound.hdf5", "particles")
     gas = Snapshot(files / "b10_compound.hdf5")["gas"]
