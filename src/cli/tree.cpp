@@ -55,8 +55,8 @@ int run_tree(const TreeCommandOptions& options, Console& console) {
   const SnapshotInfo& info = snapshot->info();
   if (!tree_is_of_use(info)) {
     throw UsageError(fmt::format(
-        "{}: expected a whole snapshot in files, whose tree can lie beside them; convert it first "
-        "(splotchcl convert)",
+        "{}: expected a whole snapshot in files, whose tree can lie beside them; store it as one "
+        "first, such as HDF5 by h5py",
         options.snapshot.string()));
   }
   if (options.fields.size() > most_fields) {

@@ -62,15 +62,10 @@ bool are_letters(std::string_view content) {
 
 // What a file that is no snapshot is, where its bytes tell, and what to do.
 std::string describe_other(const fs::path& path) {
+  if (const char* const kind = find_other_kind(path)) return kind;
   const auto file = MappedFile::open(path);
-  const std::string_view content = content_of(*file);
-  if (const char* const familiar = find_familiar(content)) return familiar;
-  const std::string_view start = content.substr(0, 4096);
-  if (start.find("<VOTABLE") != std::string_view::npos)
-    return "a VOTable; write it as ECSV or HDF5, as with astropy's Table.write";
-  if (start.find("\\begin{table") != std::string_view::npos)
-    return "a LaTeX table; write it as CSV or ECSV, as with astropy's Table.write";
-  return are_letters(start) ? "text, but no table with three or more numbers in each line" : "";
+  const bool is_text = are_letters(content_of(*file).substr(0, 4096));
+  return is_text ? "text, but no table with three or more numbers in each line" : "";
 }
 
 std::string first_bytes(const fs::path& path) {
@@ -108,8 +103,7 @@ bool is_text(const fs::path& path) {
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored) || fs::file_size(path, ignored) == 0) return false;
   const auto file = MappedFile::open(path);
-  const std::string_view content = content_of(*file);
-  return find_familiar(content) == nullptr && are_letters(content.substr(0, 4096));
+  return find_other_kind(path) == nullptr && are_letters(content_of(*file).substr(0, 4096));
 }
 
 // Where lines are to be skipped the file is a text table, whatever these lines look like.
@@ -208,6 +202,18 @@ std::unique_ptr<Snapshot> open_folder(const fs::path& folder, const SnapshotOpti
 std::vector<const SnapshotFormat*> snapshot_formats() {
   return {&gadget_binary_format(), &hdf5_formats(), &numpy_format(), &tipsy_format(),
           &text_table_format()};
+}
+
+const char* find_other_kind(const fs::path& path) {
+  const auto file = MappedFile::open(path);
+  const std::string_view content = content_of(*file);
+  if (const char* const familiar = find_familiar(content)) return familiar;
+  const std::string_view start = content.substr(0, 4096);
+  if (start.find("<VOTABLE") != std::string_view::npos)
+    return "a VOTable; write it as ECSV or HDF5, as with astropy's Table.write";
+  if (start.find("\\begin{table") != std::string_view::npos)
+    return "a LaTeX table; write it as CSV or ECSV, as with astropy's Table.write";
+  return nullptr;
 }
 
 const SnapshotFormat* find_format(const fs::path& path) {

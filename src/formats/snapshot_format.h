@@ -58,6 +58,11 @@ std::vector<const SnapshotFormat*> snapshot_formats();
 // be opened.
 const SnapshotFormat* find_format(const std::filesystem::path& path);
 
+// What a file is that its first bytes show to be no snapshot, and what to do, such as "a FITS file;
+// convert it to HDF5 or to a NumPy array"; null where they do not tell. Throws DataError when the
+// file cannot be opened.
+const char* find_other_kind(const std::filesystem::path& path);
+
 // More columns than any table of particles has: what asks for more is damaged, or no such table.
 constexpr std::size_t most_columns = 4096;
 

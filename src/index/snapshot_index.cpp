@@ -174,7 +174,7 @@ SnapshotIndex SnapshotIndex::make(const Snapshot& snapshot,
   if (!is_of_use(info)) {
     throw UsageError(fmt::format(
         "{}: {} cannot be read in parts, expected a whole snapshot of a format that can, such as "
-        "Gadget's or HDF5; convert it first (splotchcl convert)",
+        "Gadget's or HDF5; store it as one first, such as HDF5 by h5py",
         info.files.empty() ? "the snapshot" : info.files.front().string(), info.format));
   }
   SnapshotIndex index;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <vector>
+
 #include "common/file_identity.h"
 #include "finish/finish_picture.h"
 #include "ranks/exchange.h"
@@ -68,11 +71,12 @@ std::set<std::filesystem::path> InputFiles::with_sets() const {
   ExistingFiles existing;
   std::error_code ignored;
   for (const std::filesystem::path& name : named_) {
-    const auto members = existing.files_of(name);
-    files.insert(members.begin(), members.end());
+    const auto of_set = existing.files_of(name);
+    files.insert(of_set.begin(), of_set.end());
     if (std::filesystem::is_directory(name, ignored)) {
-      const auto& in_folder = open_snapshot(name)->info().files;
-      files.insert(in_folder.begin(), in_folder.end());
+      const std::unique_ptr<Snapshot> in_folder = open_snapshot(name);
+      const std::vector<std::filesystem::path>& members = in_folder->info().files;
+      files.insert(members.begin(), members.end());
     }
   }
   return files;

@@ -133,8 +133,9 @@ bool begins_like_text(const std::filesystem::path& path) {
          });
 }
 
-bool is_text_without_format(const std::filesystem::path& path) {
-  return begins_like_text(path) && find_format(path) == nullptr;
+// A scene file is such a text; a FITS file begins like one, too.
+bool is_text_of_no_known_kind(const std::filesystem::path& path) {
+  return begins_like_text(path) && find_format(path) == nullptr && find_other_kind(path) == nullptr;
 }
 
 // A scene file says its snapshot by a key, and so has a line with '=' that is no comment; a table
@@ -154,7 +155,7 @@ std::shared_ptr<const Snapshot> open_given_snapshot(const std::filesystem::path&
   try {
     return open_snapshot_for(path, read);
   } catch (const DataError& error) {
-    if (!is_text_without_format(path)) throw;
+    if (!is_text_of_no_known_kind(path)) throw;
     throw DataError(std::string(error.what()) +
                     ", or a scene file, which has lines such as snapshot = \"snapshot_006\"");
   }
@@ -248,7 +249,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
     result.snapshot = SnapshotSource().at(result.scene);
     apply_colors(keys, settings, result);
     keep_types(keys, result.scene);
-  } else if (lower_ending(path) == ".toml" || (is_text_without_format(path) && has_keys(path))) {
+  } else if (lower_ending(path) == ".toml" || (is_text_of_no_known_kind(path) && has_keys(path))) {
     result = open_scene_file(path, settings, keys, ranks);
   } else {
     result.snapshot = open_given_snapshot(path, read_settings_in(settings));

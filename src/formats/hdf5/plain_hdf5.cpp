@@ -86,14 +86,22 @@ std::string common_group(const std::vector<std::string>& groups) {
   return "/";
 }
 
+std::string name_groups(const Hdf5File& file, const std::vector<std::string>& groups) {
+  constexpr std::size_t most_named = 3;
+  const std::vector<std::string> steps = find_steps(file, groups);
+  if (steps.size() <= most_named) return fmt::format("one of {}", fmt::join(groups, ", "));
+  return fmt::format("one of {} steps in time, {} to {}", steps.size(), steps.front(),
+                     steps.back());
+}
+
 // Of groups that are steps in time those of one: that which is asked for, or the last.
 std::vector<std::string> choose_step(const Hdf5File& file, const std::vector<std::string>& groups,
                                      const std::string& wanted, Notes& notes) {
   if (!wanted.empty()) {
     std::vector<std::string> below = groups_below(groups, "/" + wanted);
     if (!below.empty()) return below;
-    throw DataError(fmt::format("{}: found no particles in a group {}, expected one of {}",
-                                file.path().string(), wanted, fmt::join(groups, ", ")));
+    throw DataError(fmt::format("{}: found no particles in a group {}, expected {}",
+                                file.path().string(), wanted, name_groups(file, groups)));
   }
   const std::vector<std::string> steps = find_steps(file, groups);
   if (steps.empty()) return groups;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 #include "common/words.h"
 #include "formats/table_names.h"
@@ -33,6 +34,26 @@ std::string without_number(const std::string& name, std::size_t column) {
     }
   }
   return name;
+}
+
+// The digits of a name that ends in "(6)"; empty where it does not.
+std::string number_behind(const std::string& name) {
+  const std::size_t open = name.rfind('(');
+  if (open == std::string::npos || open == 0 || name.back() != ')') return {};
+  const std::string digits = name.substr(open + 1, name.size() - open - 2);
+  const bool is_number = digits.find_first_not_of("0123456789") == std::string::npos;
+  return is_number && digits.size() < 6 ? digits : std::string();
+}
+
+// Whether each has a number behind it that grows from column to column: also where columns between
+// them were cut out.
+bool are_numbered(const std::vector<std::string>& names) {
+  int last = -1;
+  return std::all_of(names.begin(), names.end(), [&last](const std::string& name) {
+    const std::string digits = number_behind(name);
+    const int before = std::exchange(last, digits.empty() ? -1 : std::stoi(digits));
+    return last > before;
+  });
 }
 
 // Where all three axes of a vector are written in another way, those that are ours.
@@ -120,8 +141,10 @@ std::vector<std::string> names_in_line(const std::string_view line, bool begins_
 }
 
 std::vector<std::string> in_our_words(std::vector<std::string> names) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    names[i] = without_number(names[i], i);
+  const bool have_numbers = are_numbered(names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    names[i] = have_numbers ? names[i].substr(0, names[i].rfind('(')) : without_number(names[i], i);
+  }
   for (const char* const stem : {"", "V", "v"})
     rename_axes(names, stem, {"Xc", "Yc", "Zc"}, "", stem);
   const std::vector<std::string> before = names;

@@ -44,6 +44,7 @@ class TextTable : public Table {
   }
   void read_row(const TextLines& line, const std::vector<WantedCell>& wanted, double* values) const;
   [[noreturn]] void fail(const TextLines& line, const std::string& what) const;
+  [[noreturn]] void refuse_count(const TextLines& line, std::size_t cells) const;
 
   std::shared_ptr<const MappedFile> file_;
   TableLayout layout_;
@@ -128,6 +129,18 @@ void TextTable::fail(const TextLines& line, const std::string& what) const {
                               file_->path().string(), line.number(), what));
 }
 
+// Without names, lines before the table may look like its first row.
+void TextTable::refuse_count(const TextLines& line, std::size_t cells) const {
+  const std::string what =
+      fmt::format("found {} values, expected {} as in the first row", cells, layout_.cells.size());
+  const bool may_be_first = layout_.names.empty() && line.number() == layout_.lines_before + 2;
+  if (!may_be_first) fail(line, what);
+  throw DataError(fmt::format(
+      "{}: line {}: {}; if the table begins further down, leave out the lines before it with "
+      "read.skip_lines, else the file is damaged: write it again",
+      file_->path().string(), line.number(), what));
+}
+
 void TextTable::read_row(const TextLines& line, const std::vector<WantedCell>& wanted,
                          double* values) const {
   CellReader reader(line, layout_.format);
@@ -141,10 +154,7 @@ void TextTable::read_row(const TextLines& line, const std::vector<WantedCell>& w
       values[next->place] = *value;
     }
   }
-  const std::size_t expected = layout_.cells.size();
-  if (cells != expected) {
-    fail(line, fmt::format("found {} values, expected {} as in the first row", cells, expected));
-  }
+  if (cells != layout_.cells.size()) refuse_count(line, cells);
 }
 
 void TextTable::for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const {

@@ -203,6 +203,9 @@ TEST_F(PlainHdf5, RecordsAndRowsOfOtherShapesAreRefusedForWhatTheyAre) {
 TEST_F(PlainHdf5, AStepThatIsNotThereIsRefusedWithThoseThatAre) {
   write_steps(path_, {"Step#0", "Step#1"});
   EXPECT_THAT(refusal(path_ / "Step#2"), AllOf(HasSubstr("group Step#2"), HasSubstr("/Step#1")));
+  write_steps(path_, {"Step#1", "Step#2", "Step#9", "Step#10"});
+  EXPECT_THAT(refusal(path_ / "Step#3"),
+              HasSubstr("expected one of 4 steps in time, /Step#1 to /Step#10"));
   write_bytes(folder_ / "table", "x y z\n1 2 3\n4 5 6\n");
   EXPECT_THAT(refusal(folder_ / "table" / "Step#0"), HasSubstr("without groups"));
 }

@@ -153,6 +153,8 @@ TEST_F(TextForm, TablesForOthersAreRefusedWithWhatToDo) {
               HasSubstr("it is a VOTable; write it as ECSV"));
   EXPECT_THAT(refusal_of("\\begin{table}\nx & y & z \\\\\nkpc & kpc & kpc \\\\\n1 & 2 & 3 \\\\\n"),
               HasSubstr("it is a LaTeX table; write it as CSV"));
+  EXPECT_THAT(refusal_of("<VOTABLE version=\"1.4\"></VOTABLE>\n", {{"x", "y", "z"}}),
+              HasSubstr("it is a VOTable"));
 }
 
 TEST_F(TextForm, NumbersOfColumnsInNamesAreNoPartOfThem) {
@@ -163,6 +165,13 @@ TEST_F(TextForm, NumbersOfColumnsInNamesAreNoPartOfThem) {
                 ElementsAre(1, 2, 3, 4, 5, 6))
         << header;
   }
+}
+
+TEST_F(TextForm, NumbersOfColumnsStayWithNamesWhereOthersAreCutOut) {
+  const auto snapshot = open("#ID(1)\tXc(6)\tYc(7)\tZc(8)\tRhalo(12)\n1\t1\t2\t3\t210.5\n");
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3));
+  EXPECT_EQ(snapshot->read(0, "Rhalo")[0], 210.5F);
+  EXPECT_EQ(unit_of(*snapshot, "Rhalo"), "");
 }
 
 }  // namespace

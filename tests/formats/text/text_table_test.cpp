@@ -305,6 +305,12 @@ TEST_F(TextTable, ABadRowIsRefusedWithItsLine) {
               HasSubstr("line 3: found 4 values, expected 3"));
 }
 
+TEST_F(TextTable, ARowUnlikeALineBeforeItIsRefusedWithWhatToDo) {
+  EXPECT_THAT(refusal_of("2 0 1\n0.5 1.5\n1 2 3 4\n5 6 7 8\n", {"x", "y", "z"}),
+              HasSubstr("line 2: found 2 values, expected 3 as in the first row; if the table "
+                        "begins further down, leave out the lines before it with read.skip_lines"));
+}
+
 TEST_F(TextTable, WithoutPositionsIsRefused) {
   EXPECT_THAT(refusal_of("time,energy,mass\n1,2,3\n"),
               HasSubstr("no positions: its columns are time, energy, mass"));
