@@ -11,6 +11,7 @@
 #include "open_scene/short_keys.h"
 #include "ranks/exchange.h"
 #include "scene_file/suggested.h"
+#include "sequence/list_sequence.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
@@ -215,7 +216,7 @@ SceneWithSnapshot open_sequence(const std::string& pattern,
   SceneWithSnapshot result;
   Scene begun;
   begun.time.pattern = pattern;
-  const std::vector<ListedSnapshot> list = list_snapshots(begun.time);
+  const std::vector<ListedSnapshot> list = list_sequence(begun.time);
   begun.time.index = list.back().index;
   result.snapshot = SnapshotSource().at(begun);
   share_passes(*result.snapshot, ranks);

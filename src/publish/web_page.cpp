@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "finish/white_balance.h"
+#include "scene/plan/light_structure.h"
 #include "splotchcl/error.h"
-#include "splotchcl/plan.h"
 #include "splotchcl_embedded/published_page.h"
 
 namespace splotchcl {
@@ -24,8 +24,8 @@ Json json_of(const Vec3& v) {
 
 // Light over what absorbs it; 0: nothing absorbs.
 double source_of(const Frame& frame) {
-  const FramePlan plan = make_plan(frame);
-  return plan.light == LightPlan::proportional ? plan.source[0] : 0.0;
+  const LightStructure structure = find_light_structure(frame);
+  return structure.light == LightPlan::proportional ? structure.source[0] : 0.0;
 }
 
 Json camera_of(const Frame& frame) {
@@ -143,18 +143,11 @@ void check_page(const Frame& frame) {
         "publish: found a projection of wide angles, expected camera.projection perspective or "
         "orthographic");
   }
-  if (choose_light(frame) == LightPlan::ordered) {
+  if (find_light_structure(frame).light == LightPlan::ordered) {
     throw UsageError(
         "publish: found matter whose order along the view counts, expected light that adds up: no "
         "absorption, or the same in all components as what they emit (component.NAME.absorption = "
         "\"none\")");
-  }
-  const FramePlan plan = make_plan(frame);
-  const auto& source = plan.source;
-  if (plan.light == LightPlan::proportional && (source[0] != source[1] || source[0] != source[2])) {
-    throw UsageError(
-        "publish: found channels whose light over absorption differs, expected the same in red, "
-        "green and blue");
   }
 }
 

@@ -25,7 +25,7 @@ struct WebPage {
 constexpr double page_footprint_pixels = 0.5;
 
 // Throws UsageError for a frame that no page can show: wide angles, and matter whose order along
-// the view counts, or whose light over what it absorbs differs between channels.
+// the view counts.
 void check_page(const Frame& frame);
 
 // The frame as a page shows it, with the particles, or with splats in their place.

@@ -6,28 +6,14 @@
 
 #include "formats/hdf5/hdf5_values.h"
 #include "fuzz/fuzz.h"
+#include "fuzz/plan.h"
 
 namespace {
 
 using namespace splotchcl;
 using namespace splotchcl::test;
+using fuzz::Plan;
 using Handle = Hdf5Handle<H5Tclose>;
-
-class Plan {
- public:
-  Plan(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-  bool is_at_end() const { return place_ >= size_; }
-  std::size_t below(std::size_t limit) { return byte() % limit; }
-  template <class T, std::size_t N>
-  const T& one_of(const std::array<T, N>& choices) {
-    return choices[below(N)];
-  }
-
- private:
-  std::uint8_t byte() { return is_at_end() ? std::uint8_t{0} : data_[place_++]; }
-  const std::uint8_t* data_;
-  std::size_t size_, place_ = 0;
-};
 
 const std::array<const char*, 16> groups = {"",
                                             "data/1",

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "film/follow/followed_particles.h"
-#include "snapshot/snapshot_files.h"
+#include "sequence/list_sequence.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_source.h"
 
@@ -69,7 +69,7 @@ double index_of_choice(const Follow& follow, const std::vector<ListedSnapshot>& 
 }
 
 Search search_for(const Scene& scene, const std::vector<double>& indices) {
-  const std::vector<ListedSnapshot> list = list_snapshots(scene.time);
+  const std::vector<ListedSnapshot> list = list_sequence(scene.time);
   const auto [least, most] = std::minmax_element(indices.begin(), indices.end());
   const std::size_t first = find_place(list, *least).snapshot, last = end_of(list, *most);
   Search search;

@@ -10,7 +10,7 @@
 #include "film/follow/find_followed.h"
 #include "film/follow/followed_particles.h"
 #include "scene_file/values.h"
-#include "snapshot/snapshot_files.h"
+#include "sequence/list_sequence.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -78,7 +78,7 @@ void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
   if (!filled_box(scene, snapshot)) return;
   scene.periodic.wrap = true;
   std::vector<double> indices = {scene.time.index};
-  if (!scene.path.keyframes.empty()) indices.push_back(list_snapshots(scene.time).front().index);
+  if (!scene.path.keyframes.empty()) indices.push_back(list_sequence(scene.time).front().index);
   const Vec3 shift = find_followed(scene, indices).center(indices.back()) - scene.camera->look_at;
   scene.camera->look_at += shift;
   scene.camera->position += shift;
@@ -97,7 +97,7 @@ std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Sce
   }
   if (path.is_set()) return "";
   const std::vector<ListedSnapshot> list =
-      is_series ? list_snapshots(scene.time) : std::vector<ListedSnapshot>();
+      is_series ? list_sequence(scene.time) : std::vector<ListedSnapshot>();
   const bool has_jumps = is_series && scene.time.interpolation == Interpolation::none;
   if (!scene.movie.frames)
     scene.movie.frames = has_jumps ? static_cast<int>(list.size()) : usual_frames;
