@@ -238,19 +238,28 @@ ValueType<std::optional<Vec3>> point_or(const std::string& word) {
           [word](const Place& point) { return point ? vector().write(*point) : write_text(word); }};
 }
 
+// A key of a part of the path, which is there as soon as one of its keys is.
+template <class V, class Part>
+Key part_key(const std::string& path, std::optional<Part> PathSettings::*part,
+             const ValueType<V>& type, std::function<std::optional<V>(const Part&)> get,
+             std::function<void(Part&, const V&)> set, const Text& text) {
+  return key<PathSettings, V>(
+      path, type,
+      [part, get](const PathSettings& settings) {
+        return settings.*part ? get(*(settings.*part)) : std::optional<V>();
+      },
+      [part, set](PathSettings& settings, const V& value) {
+        std::optional<Part>& there = settings.*part;
+        set(there ? *there : there.emplace(), value);
+      },
+      text);
+}
+
 template <class V>
 Key follow_key(const std::string& name, const ValueType<V>& type,
                std::function<std::optional<V>(const Follow&)> get,
                std::function<void(Follow&, const V&)> set, const Text& text) {
-  return key<PathSettings, V>(
-      "path.follow." + name, type,
-      [get](const PathSettings& path) {
-        return path.follow ? get(*path.follow) : std::optional<V>();
-      },
-      [set](PathSettings& path, const V& value) {
-        set(path.follow ? *path.follow : path.follow.emplace(), value);
-      },
-      text);
+  return part_key<V, Follow>("path.follow." + name, &PathSettings::follow, type, get, set, text);
 }
 
 Keys followed_keys() {
@@ -322,15 +331,8 @@ template <class V>
 Key approach_key(const std::string& name, const ValueType<V>& type,
                  std::function<std::optional<V>(const Approach&)> get,
                  std::function<void(Approach&, const V&)> set, const Text& text) {
-  return key<PathSettings, V>(
-      "path.approach." + name, type,
-      [get](const PathSettings& path) {
-        return path.approach ? get(*path.approach) : std::optional<V>();
-      },
-      [set](PathSettings& path, const V& value) {
-        set(path.approach ? *path.approach : path.approach.emplace(), value);
-      },
-      text);
+  return part_key<V, Approach>("path.approach." + name, &PathSettings::approach, type, get, set,
+                               text);
 }
 
 Keys approach_keys() {
