@@ -78,12 +78,15 @@ struct Trial {
   double decades = 0;              // of the palette's range, which is logarithmic; 0: linear
   double cut = 0;                  // kernel.cut; 0: none
   double min_radius = 0;           // kernel.min_radius, in pixels
+  double footprint = 0;            // kernel.footprint, in pixels
   double slabs = 0;                // of an ordered plan: at least so many; 0: as it is planned
   double own_colors = 0;           // 1: particles have colors of their own
   double around = 0;               // 1: the camera sees through clouds around it
   double certify = 0;              // 1: the picture's error is to have a bound
   double dome = 0;                 // 1: a fisheye of half of all directions and more
   double original = 0;             // 1: pixels lie as the original program's
+  double eye = 0;                  // lengths beside the camera, of a stereo pair's eye; 0: none
+  double left_eye = 0;             // 1: to the left
   double inset = 0;                // a part of the field of view, around a cloud; 0: all of it
   double between = 0;              // so far on the way between two snapshots; 0: in one
   double motion = 0;               // pixels that clouds move between them

@@ -54,6 +54,10 @@ Frame empty_frame_of(const Trial& trial) {
       break;
   }
   frame.camera.pixels_per_length = frame.camera.focal_pixels;
+  if (trial.eye > 0) {
+    frame.camera.eye_offset = trial.left_eye > 0 ? -trial.eye : trial.eye;
+    frame.camera.turn_axis = frame.camera.down * -1.0;
+  }
   if (trial.original > 0) frame.camera = in_original_convention(frame.camera);
   frame.background.fill(trial.background);
   frame.tolerance = trial.tolerance;
@@ -62,6 +66,7 @@ Frame empty_frame_of(const Trial& trial) {
   frame.kernel.sampling = trial.sampling;
   if (trial.cut > 0) frame.kernel.cut = trial.cut;
   frame.kernel.min_radius_pixels = trial.min_radius;
+  frame.kernel.footprint_pixels = trial.footprint;
   return frame;
 }
 

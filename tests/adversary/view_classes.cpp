@@ -39,12 +39,29 @@ Trial smallest_radius(Random& random) {
   return trial;
 }
 
+Trial footprint_of_pixels(Random& random) {
+  Trial trial = any_base(random);
+  trial.footprint = random.logarithmic(0.1, 2);
+  if (random.uniform() < 0.5) trial.projection = Projection::perspective;
+  return trial;
+}
+
 Trial in_projection(Projection projection, Random& random) {
   Trial trial = any_base(random);
   trial.projection = projection;
   if (projection == Projection::cube) trial.width = trial.height;
   if (projection == Projection::equirectangular) trial.height = 0.5 * trial.width;
   if (projection == Projection::fisheye) trial.field_of_view = random.uniform(40, 150);
+  return trial;
+}
+
+// Of a stereo pair in all directions, which turns near clouds far.
+Trial eye_of_a_pair(Random& random) {
+  constexpr Projection wide[] = {Projection::fisheye, Projection::equirectangular,
+                                 Projection::cube};
+  Trial trial = in_projection(wide[static_cast<int>(random.uniform(0, 3))], random);
+  trial.eye = random.logarithmic(1e-3, 1);
+  trial.left_eye = random.uniform() < 0.5 ? 1 : 0;
   return trial;
 }
 
@@ -121,6 +138,8 @@ std::vector<TrialClass> view_classes() {
       {"center_values", "clouds below a pixel are drawn as they are at its centre", all_lights,
        usual, center_values},
       {"min_radius", "widths and weights change together", all_lights, usual, smallest_radius},
+      {"footprint", "clouds below a pixel become wider ones, at their own light", all_lights, usual,
+       footprint_of_pixels},
       {"crop", "what is drawn lies anywhere in its picture", all_lights, usual, crop_of_a_picture},
       {"perspective", "places are quotients", all_lights, usual, seen_in(Projection::perspective)},
       {"fisheye", "places are arcs", all_lights, usual, seen_in(Projection::fisheye)},
@@ -128,6 +147,8 @@ std::vector<TrialClass> view_classes() {
        seen_in(Projection::equirectangular)},
       {"cube", "clouds grow towards a face's corners", all_lights, usual,
        seen_in(Projection::cube)},
+      {"eye_of_a_pair", "clouds turn by angles that their distances give", all_lights, usual,
+       eye_of_a_pair},
       {"clouds_around", "what rays find of clouds is smooth but for where they are cut", all_lights,
        usual, clouds_around},
       {"clouds_in_a_dome", "the same of cut ones in half of all directions and more", all_lights,
