@@ -15,7 +15,7 @@ struct SmoothPictureSettings {
   int width = 0, height = 0;  // of the whole picture: spacings do not depend on what is drawn of it
   Rectangle crop;             // what is wanted
   int channels = 0;           // of a pixel
-  // No detail is narrower than exp(-x^2 / narrowest^2), in pixels.
+  // No detail is narrower than exp(-x^2 / narrowest^2), in pixels; 0: all pixels are worked out.
   double narrowest = 0;
   // The most that a pixel may err by; `error_of` says by how much it does, from its channels as
   // they are and as they were foretold.

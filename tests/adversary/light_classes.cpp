@@ -65,11 +65,12 @@ Trial many_colors(Random& random) {
 }
 
 Trial certified(Random& random) {
-  const auto choice = static_cast<int>(random.uniform(0, 6));
+  const auto choice = static_cast<int>(random.uniform(0, 7));
   Trial trial = choice == 0   ? two_sources(random)
                 : choice == 1 ? tinted_matter(random)
                 : choice == 2 ? many_colors(random)
                 : choice == 3 ? cut_kernel(random)
+                : choice == 4 ? clouds_around(random)
                               : any_base(random);
   trial.certify = 1;
   return trial;

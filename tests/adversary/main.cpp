@@ -73,8 +73,8 @@ Options short_options() {
 
 Options long_options() {
   Options options;
-  options.pictures = 150;
-  options.last_seed = 23;
+  options.minutes = 30;
+  options.last_seed = 6;  // of each light
   return options;
 }
 

@@ -138,4 +138,17 @@ Trial cut_kernel(Random& random) {
   return trial;
 }
 
+Trial clouds_around(Random& random) {
+  Trial trial = any_base(random);
+  trial.around = 1;
+  trial.projection = random.uniform() < 0.7 ? Projection::perspective : Projection::fisheye;
+  if (random.uniform() < 0.5) trial.cut = random.logarithmic(0.03, 3);
+  trial.field_of_view = random.uniform(40, 90);
+  for (CloudGroup& group : trial.groups) {
+    group.sigma = random.logarithmic(3, 20);
+    group.peak = random.logarithmic(1e-2, 10);
+  }
+  return trial;
+}
+
 }  // namespace splotchcl::adversary

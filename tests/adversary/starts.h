@@ -34,5 +34,7 @@ Trial any_base(test::Random& random);
 
 // As scenes of the original program are drawn, too.
 Trial cut_kernel(test::Random& random);
+// So near that rays find a part of them.
+Trial clouds_around(test::Random& random);
 
 }  // namespace splotchcl::adversary

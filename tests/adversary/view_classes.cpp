@@ -74,20 +74,6 @@ Trial crop_of_a_picture(Random& random) {
   return trial;
 }
 
-// Clouds so near that rays find a part of them.
-Trial clouds_around(Random& random) {
-  Trial trial = any_base(random);
-  trial.around = 1;
-  trial.projection = random.uniform() < 0.7 ? Projection::perspective : Projection::fisheye;
-  if (random.uniform() < 0.5) trial.cut = random.logarithmic(0.03, 3);
-  trial.field_of_view = random.uniform(40, 90);
-  for (CloudGroup& group : trial.groups) {
-    group.sigma = random.logarithmic(3, 20);
-    group.peak = random.logarithmic(1e-2, 10);
-  }
-  return trial;
-}
-
 Trial wide_picture(Random& random) {
   Trial trial = bright_stars(random);
   trial.picture_size = random.uniform() < 0.5 ? 65536 : 32768;

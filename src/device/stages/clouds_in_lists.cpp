@@ -166,7 +166,8 @@ void write(const StageContext& context, const std::vector<T>& values, std::size_
 
 bool CloudsInLists::can_hold(const StageContext& context, const std::vector<CloudAround>& clouds) {
   const KernelSettings& kernel = context.frame.kernel;
-  return !context.plan.is_extended() && !kernel.cut && clouds.size() < most_clouds &&
+  const FramePlan& plan = context.plan;
+  return !plan.is_extended() && !plan.certify && !kernel.cut && clouds.size() < most_clouds &&
          (kernel.sampling == Sampling::center ||
           std::all_of(clouds.begin(), clouds.end(), is_wide));
 }
