@@ -295,7 +295,7 @@ FramePlan Renderer::State::try_out(const Frame& frame, const FramePlan& plan) {
     part.crop = crop;
     DrawnSplats splats;
     const Image image = draw(part, tried, splats);
-    if (splats.counts.too_sharp > 0) return tried;
+    if (splats.counts.too_sharp > 0) break;
     FramePlan stricter = tried;
     stricter.shares.promise *= part_of_promise;
     Certificate certificate;
@@ -304,6 +304,7 @@ FramePlan Renderer::State::try_out(const Frame& frame, const FramePlan& plan) {
     if (!certificate.keeps_promise())
       tried = refine_plan(frame, tried, with_all_octaves(certificate.needs));
   }
+  tried.tried_parts.clear();
   return tried;
 }
 

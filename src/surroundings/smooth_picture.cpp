@@ -63,6 +63,12 @@ int first_spacing(int side, double narrowest) {
   return spacing;
 }
 
+// Where nodes lie, until they are pixels.
+Rectangle looked_at(const SmoothPictureSettings& settings) {
+  if (settings.crop_alone) return settings.crop;
+  return {0, 0, settings.width, settings.height};
+}
+
 }  // namespace
 
 class SmoothPicture::Nodes {
@@ -212,12 +218,13 @@ class SmoothPicture::Nodes {
   double largest_error_of_row(int row, const Nodes& fine,
                               const SmoothPictureSettings& settings) const {
     const int y = fine.y_.pixel(row);
-    if (y < 0 || y >= settings.height) return 0;
+    const Rectangle seen = looked_at(settings);
+    if (y < seen.y || y >= seen.y + seen.height) return 0;
     std::vector<double> foretold(channels_);
     double largest = 0;
     for (int column = 0; column < fine.x_.count; ++column) {
       const int x = fine.x_.pixel(column);
-      if (x < 0 || x >= settings.width || node_at(x, y)) continue;
+      if (x < seen.x || x >= seen.x + seen.width || node_at(x, y)) continue;
       interpolate(x, y, foretold.data());
       largest = std::max(largest, settings.error_of(fine.at(column, row), foretold.data()));
     }
@@ -246,14 +253,14 @@ class SmoothPicture::Nodes {
 
 SmoothPicture::SmoothPicture(const SmoothPictureSettings& settings, const PixelFunction& pixel)
     : crop_(settings.crop) {
-  const Rectangle whole = {0, 0, settings.width, settings.height};
+  const Rectangle seen = looked_at(settings);
   int spacing = first_spacing(std::min(settings.width, settings.height), settings.narrowest);
-  Nodes nodes(spacing == 1 ? settings.crop : whole, spacing, settings.channels);
+  Nodes nodes(spacing == 1 ? settings.crop : seen, spacing, settings.channels);
   nodes.fill(pixel, nullptr);
   while (spacing > 1) {
     spacing /= 2;
     // Pixels themselves need no other, so that of them only those wanted are worked out.
-    Nodes finer(spacing == 1 ? settings.crop : whole, spacing, settings.channels);
+    Nodes finer(spacing == 1 ? settings.crop : seen, spacing, settings.channels);
     finer.fill(pixel, &nodes);
     const bool foretells = spacing > 1 && nodes.largest_error(finer, settings) <=
                                               better_when_halved * settings.allowed;

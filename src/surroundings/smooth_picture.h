@@ -14,6 +14,7 @@ namespace splotchcl {
 struct SmoothPictureSettings {
   int width = 0, height = 0;  // of the whole picture: spacings do not depend on what is drawn of it
   Rectangle crop;             // what is wanted
+  bool crop_alone = false;    // but on the crop: its bits are no longer those of the whole picture
   int channels = 0;           // of a pixel
   // No detail is narrower than exp(-x^2 / narrowest^2), in pixels; 0: all pixels are worked out.
   double narrowest = 0;
