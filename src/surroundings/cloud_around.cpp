@@ -12,45 +12,6 @@
 namespace splotchcl {
 namespace {
 
-// The mean of exp(-(t - center)^2 / sigma^2) over a pixel.
-double mean_profile(double center, double sigma, int pixel) {
-  // Turned so that both ends count from below: differences of erfc keep their digits.
-  double low = (pixel - center) / sigma, high = (pixel + 1 - center) / sigma;
-  if (low + high < 0) {
-    std::swap(low, high);
-    low = -low;
-    high = -high;
-  }
-  return 0.5 * std::sqrt(pi) * sigma * (std::erfc(low) - std::erfc(high));
-}
-
-// The mean of exp(-u^2) over a pixel's width, of its value at the pixel's center: u^2 there.
-double mean_of_value(double u2, double inverse_sigma2) {
-  return 1 + inverse_sigma2 * ((u2 - 0.5) / 6 + inverse_sigma2 * ((u2 * (4 * u2 - 12) + 3) / 480));
-}
-
-double splat_column(const SplatAround& splat, int x, int y, double farthest2, Sampling sampling,
-                    double wide_sigma) {
-  const double dx = (x + 0.5 - splat.x) / splat.sigma_x, dy = (y + 0.5 - splat.y) / splat.sigma_y;
-  const double x2 = dx * dx, y2 = dy * dy;
-  const bool is_wide = splat.sigma_x > wide_sigma && splat.sigma_y > wide_sigma;
-  if (sampling == Sampling::mean && !is_wide)
-    return mean_profile(splat.x, splat.sigma_x, x) * mean_profile(splat.y, splat.sigma_y, y);
-  if (x2 + y2 > farthest2) return 0;
-  const double value = std::exp(-(x2 + y2));
-  if (sampling == Sampling::center) return value;
-  return value * mean_of_value(x2, 1 / (splat.sigma_x * splat.sigma_x)) *
-         mean_of_value(y2, 1 / (splat.sigma_y * splat.sigma_y));
-}
-
-bool is_cut_away(const SplatAround& splat, int x, int y, const KernelSettings& kernel) {
-  if (!kernel.cut) return false;
-  const double dx = (x + 0.5 - splat.x) / splat.sigma_x, dy = (y + 0.5 - splat.y) / splat.sigma_y;
-  if (dx * dx + dy * dy <= *kernel.cut * *kernel.cut) return false;
-  const bool holds_center = std::floor(splat.x) == x && std::floor(splat.y) == y;
-  return !(kernel.sampling == Sampling::mean && holds_center);
-}
-
 Vec3 from_camera(const DrawnComponent& component, const Frame& frame, std::size_t i) {
   using namespace boost::qvm;
   const Particles& particles = component.particles;
@@ -135,25 +96,9 @@ bool has_clouds_around(const Frame& frame) {
   return frame.through_clouds && frame.projection != Projection::orthographic;
 }
 
-// The first derivative that is left out is below 3.8e-4 / sigma^6.
-double sigma_of_means_by_values(double error) {
-  return std::pow(3.8e-4 / error, 1.0 / 6);
-}
-
 double ray_part(double distance_in_sigma) {
   const double u = std::clamp((distance_in_sigma - all_ray) / (all_splat - all_ray), 0.0, 1.0);
   return 1 - u * u * (3 - 2 * u);
-}
-
-double ray_column(const Vec3& center, const Vec3& direction, double farthest2) {
-  using namespace boost::qvm;
-  // erfc(6) is below what doubles tell 1 from.
-  constexpr double all_in_front = 6;
-  const double distance2 = mag_sqr(cross(center, direction));
-  if (distance2 > farthest2) return 0;
-  const double before = dot(center, direction);
-  if (before > all_in_front) return std::exp(-distance2);
-  return 0.5 * std::exp(-distance2) * std::erfc(-before);
 }
 
 CloudAround cloud_around(const DrawnComponent& component, const Frame& frame, std::size_t i) {
@@ -181,17 +126,6 @@ CloudAround cloud_around(const DrawnComponent& component, const Frame& frame, st
     set_splats(*projected, drawn.sigma, frame, cloud);
   }
   return cloud;
-}
-
-double column_around(const CloudAround& cloud, int x, int y, const Vec3& direction,
-                     const KernelSettings& kernel, double wide_sigma) {
-  double column =
-      cloud.ray > 0 ? cloud.ray * ray_column(cloud.center, direction, cloud.farthest2) : 0;
-  for (const SplatAround& splat : cloud.splats) {
-    if (is_cut_away(splat, x, y, kernel)) continue;
-    column += cloud.splat * splat_column(splat, x, y, cloud.farthest2, kernel.sampling, wide_sigma);
-  }
-  return column;
 }
 
 double widest_angle(const Frame& frame) {

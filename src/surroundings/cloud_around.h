@@ -10,7 +10,7 @@
 
 // Clouds around the camera (Frame::through_clouds): what is in front of the camera along each ray,
 // where a splat would show a cloud's whole column or none. docs/projections.md has the formulas.
-// The reference renderer has a copy of its own on purpose (src/reference/ray_column.h).
+// The reference renderer has a copy of its own on purpose (src/reference/composite.cpp).
 namespace splotchcl {
 
 // Distances from the camera in sigma. Up to the first a cloud is what a ray finds, from the second
@@ -22,11 +22,6 @@ bool has_clouds_around(const Frame& frame);
 
 // The part of a cloud at this distance that a ray finds: 1 at all_ray, 0 at all_splat.
 double ray_part(double distance_in_sigma);
-
-// The column that a ray finds in front of the camera, of a cloud of central column 1. `center` is
-// the cloud's from the camera, in sigma; `direction` a unit vector along the same axes. Rays that
-// pass the center farther away than the square root of `farthest2` find nothing.
-double ray_column(const Vec3& center, const Vec3& direction, double farthest2);
 
 // Where a splat of the cloud lies in the picture, in pixels.
 struct SplatAround {
@@ -45,15 +40,6 @@ struct CloudAround {
 
 // Particle i of the component, which is good and around the camera; its key is left 0.
 CloudAround cloud_around(const DrawnComponent& component, const Frame& frame, std::size_t i);
-
-// The width in pixels from which on the mean of a splat over a pixel follows from the value at its
-// center, and derivatives there, up to this part of itself.
-double sigma_of_means_by_values(double error);
-
-// Its column of a central one of 1 in pixel (x, y), where `direction` is seen. Splats wider than
-// `wide_sigma` pixels take means by values.
-double column_around(const CloudAround& cloud, int x, int y, const Vec3& direction,
-                     const KernelSettings& kernel, double wide_sigma);
 
 // How far from the view direction the picture's corners are seen, in radians.
 double widest_angle(const Frame& frame);

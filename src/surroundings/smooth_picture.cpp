@@ -89,21 +89,10 @@ class SmoothPicture::Nodes {
   }
 
   // Of nodes that are twice as far apart those that are known are taken.
-  void fill(const PixelFunction& pixel, const Nodes* coarse) {
+  void fill(const PixelsFunction& pixels, const Nodes* coarse) {
     for_blocks(static_cast<std::size_t>(y_.count), 1, [&](std::size_t first, std::size_t last) {
-      for (std::size_t row = first; row < last; ++row) {
-        const int y = y_.pixel(static_cast<int>(row));
-        for (int column = 0; column < x_.count; ++column) {
-          const int x = x_.pixel(column);
-          double* own = at(column, static_cast<int>(row));
-          const double* known = coarse ? coarse->node_at(x, y) : nullptr;
-          if (known) {
-            std::copy_n(known, channels_, own);
-          } else {
-            pixel(x, y, x_.spacing, own);
-          }
-        }
-      }
+      for (std::size_t row = first; row < last; ++row)
+        fill_row(static_cast<int>(row), pixels, coarse);
     });
   }
 
@@ -158,6 +147,24 @@ class SmoothPicture::Nodes {
     const int row = floor_divide(y, y_.spacing) - y_.first;
     if (column < 0 || column >= x_.count || row < 0 || row >= y_.count) return nullptr;
     return at(column, row);
+  }
+
+  void fill_row(int row, const PixelsFunction& pixels, const Nodes* coarse) {
+    const int y = y_.pixel(row);
+    std::vector<int> columns, x;
+    for (int column = 0; column < x_.count; ++column) {
+      const double* known = coarse ? coarse->node_at(x_.pixel(column), y) : nullptr;
+      if (known) {
+        std::copy_n(known, channels_, at(column, row));
+        continue;
+      }
+      columns.push_back(column);
+      x.push_back(x_.pixel(column));
+    }
+    std::vector<double> found(x.size() * channels_);
+    pixels(x, y, x_.spacing, found.data());
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      std::copy_n(found.data() + k * channels_, channels_, at(columns[k], row));
   }
 
   double weight_of(int tap, int phase) const {
@@ -251,17 +258,17 @@ class SmoothPicture::Nodes {
   std::array<std::vector<float>, taps> single_weights_;
 };
 
-SmoothPicture::SmoothPicture(const SmoothPictureSettings& settings, const PixelFunction& pixel)
+SmoothPicture::SmoothPicture(const SmoothPictureSettings& settings, const PixelsFunction& pixels)
     : crop_(settings.crop) {
   const Rectangle seen = looked_at(settings);
   int spacing = first_spacing(std::min(settings.width, settings.height), settings.narrowest);
   Nodes nodes(spacing == 1 ? settings.crop : seen, spacing, settings.channels);
-  nodes.fill(pixel, nullptr);
+  nodes.fill(pixels, nullptr);
   while (spacing > 1) {
     spacing /= 2;
     // Pixels themselves need no other, so that of them only those wanted are worked out.
     Nodes finer(spacing == 1 ? settings.crop : seen, spacing, settings.channels);
-    finer.fill(pixel, &nodes);
+    finer.fill(pixels, &nodes);
     const bool foretells = spacing > 1 && nodes.largest_error(finer, settings) <=
                                               better_when_halved * settings.allowed;
     nodes = std::move(finer);

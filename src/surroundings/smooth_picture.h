@@ -24,14 +24,16 @@ struct SmoothPictureSettings {
   std::function<double(const double* exact, const double* foretold)> error_of;
 };
 
-// Works out the channels of one of many pixels that lie `spacing` pixels apart. Also of pixels
-// beside the picture; called from several threads.
-using PixelFunction = std::function<void(int x, int y, int spacing, double* channels)>;
+// Works out the channels of pixels of row y, in columns `x`, one pixel after the other. They are
+// some of many that lie `spacing` pixels apart, also beside the picture; called from several
+// threads.
+using PixelsFunction =
+    std::function<void(const std::vector<int>& x, int y, int spacing, double* channels)>;
 
 // Nodes from which a crop's pixels are interpolated, row by row.
 class SmoothPicture {
  public:
-  SmoothPicture(const SmoothPictureSettings& settings, const PixelFunction& pixel);
+  SmoothPicture(const SmoothPictureSettings& settings, const PixelsFunction& pixels);
   SmoothPicture(SmoothPicture&&) noexcept;
   SmoothPicture& operator=(SmoothPicture&&) noexcept;
   ~SmoothPicture();

@@ -3,14 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "frames/random_frames.h"
 #include "long_tests.h"
 #include "scene/projection.h"
 #include "surroundings/clouds_in_blocks.h"
+#include "surroundings/columns_around.h"
 
 namespace splotchcl::test {
 namespace {
@@ -41,9 +44,18 @@ double gaussian(int x, int y, double sigma, Place place = on_a_node) {
   return std::exp(-dx * dx - dy * dy);
 }
 
+using PixelFunction = std::function<void(int x, int y, int spacing, double* value)>;
+
+PixelsFunction one_by_one(const PixelFunction& pixel) {
+  return [pixel](const std::vector<int>& x, int y, int spacing, double* values) {
+    for (std::size_t k = 0; k < x.size(); ++k)
+      pixel(x[k], y, spacing, values + k);
+  };
+}
+
 // Row by row.
 std::vector<double> pixels_of(const SmoothPictureSettings& settings, const PixelFunction& pixel) {
-  const SmoothPicture picture(settings, pixel);
+  const SmoothPicture picture(settings, one_by_one(pixel));
   std::vector<double> pixels, row;
   for (int y = 0; y < settings.crop.height; ++y) {
     picture.row(y, row);
@@ -102,8 +114,9 @@ TEST(SmoothPicture, OfACropHasTheBitsOfTheWholeOne) {
 TEST(SmoothPicture, InSinglePrecisionRoundsOffNoMoreThanItSays) {
   SmoothPictureSettings settings = settings_of(200, 120, 1e-3);
   settings.narrowest = 40;
-  const SmoothPicture picture(
-      settings, [](int x, int y, int, double* value) { *value = 1000 * gaussian(x, y, 40) + 1; });
+  const SmoothPicture picture(settings, one_by_one([](int x, int y, int, double* value) {
+                                *value = 1000 * gaussian(x, y, 40) + 1;
+                              }));
   std::vector<double> exact;
   std::vector<float> rounded;
   double largest_error = 0;
@@ -141,9 +154,11 @@ TEST(CloudsInBlocks, AreAllThatShowInAPixel) {
     const CloudsInBlocks in_blocks(clouds, 0, clouds.size(), frame);
     for (int y = -70; y < frame.height + 70; y += 7) {
       for (int x = -70; x < frame.width + 70; x += 7) {
-        const Vec3 direction = direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection);
+        const PixelsOfRow pixel(&x, 1, y, frame);
         const auto column = [&](std::size_t k) {
-          return column_around(clouds[k], x, y, direction, frame.kernel, wide_sigma);
+          PixelsOfRow::OfPixels<double> columns;
+          columns_around(clouds[k], pixel, frame.kernel, wide_sigma, columns);
+          return columns[0];
         };
         double of_all = 0, of_listed = 0;
         for (std::size_t k = 0; k < clouds.size(); ++k)
@@ -158,6 +173,48 @@ TEST(CloudsInBlocks, AreAllThatShowInAPixel) {
     }
   }
   EXPECT_LT(3 * listed, 2 * all) << "most clouds should be in some blocks only";
+}
+
+// The formulas of docs/projections.md, written out.
+double column_by_formulas(const CloudAround& cloud, int x, int y, const Frame& frame) {
+  using namespace boost::qvm;
+  const Vec3 ray = direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection);
+  const double beside2 = mag_sqr(cross(cloud.center, ray)), before = dot(cloud.center, ray);
+  double column =
+      beside2 <= cloud.farthest2 ? 0.5 * cloud.ray * std::exp(-beside2) * std::erfc(-before) : 0;
+  for (const SplatAround& splat : cloud.splats) {
+    const double dx = (x + 0.5 - splat.x) / splat.sigma_x, dy = (y + 0.5 - splat.y) / splat.sigma_y;
+    const double square = dx * dx + dy * dy;
+    if (square <= cloud.farthest2) column += cloud.splat * std::exp(-square);
+  }
+  return column;
+}
+
+TEST(ColumnsAround, AreThoseOfTheFormulasWhateverOtherPixelsAreAskedFor) {
+  double largest = 0;
+  for (const std::uint64_t seed : seeds(1, 60)) {
+    Frame frame = AroundSceneMaker(seed, 50).make();
+    frame.kernel.sampling = Sampling::center;
+    frame.kernel.cut = std::nullopt;
+    std::vector<int> columns;
+    for (int x = 0; x < frame.width && x < 11; ++x)
+      columns.push_back(3 * x);
+    const int row = frame.height / 2;
+    const PixelsOfRow pixels(columns.data(), columns.size(), row, frame);
+    for (const CloudAround& cloud : clouds_of(frame, 20)) {
+      PixelsOfRow::OfPixels<double> found;
+      columns_around(cloud, pixels, frame.kernel, 16, found);
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        const double exact = column_by_formulas(cloud, columns[k], row, frame);
+        ASSERT_NEAR(found[k], exact, 1e-12 * exact) << "seed " << seed << ", pixel " << columns[k];
+        largest = std::max(largest, exact);
+        PixelsOfRow::OfPixels<double> alone;
+        columns_around(cloud, PixelsOfRow(&columns[k], 1, row, frame), frame.kernel, 16, alone);
+        ASSERT_EQ(found[k], alone[0]);
+      }
+    }
+  }
+  EXPECT_GT(largest, 0.1);
 }
 
 TEST(CloudsInBlocks, AreAllOfThemWherePixelsLieFarApart) {

@@ -1,6 +1,7 @@
 #include "device/stages/surroundings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -21,6 +22,7 @@
 #include "scene/projection.h"
 #include "splotchcl/error.h"
 #include "surroundings/clouds_in_blocks.h"
+#include "surroundings/columns_around.h"
 #include "surroundings/narrowest_detail.h"
 
 namespace splotchcl {
@@ -70,6 +72,23 @@ double light_error(LightPlan light, double brightest, const double* exact, const
   }
   return error / std::max(1.0, exact[channel]) +
          std::abs(exact[channel + 3] - foretold[channel + 3]);
+}
+
+// A cloud's column behind the light, three channels, and the optical depths of what is in front.
+void add_behind(const CloudAround& cloud, double column, double* channels) {
+  if (column == 0) return;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double depth = column * cloud.absorption[c];
+    channels[c] += std::exp(-channels[c + 3]) * cloud.emission[c] * column * phi(depth);
+    channels[c + 3] += depth;
+  }
+}
+
+void add_sum(const CloudAround& cloud, double column, LightPlan light, double* channels) {
+  const std::array<double, 3>& summed =
+      light == LightPlan::emission ? cloud.emission : cloud.absorption;
+  for (std::size_t c = 0; c < 3; ++c)
+    channels[c] += column * summed[c];
 }
 
 }  // namespace
@@ -220,23 +239,29 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   const double wide_sigma =
       sigma_of_means_by_values(plan.is_extended() ? exact : part_of_promise * plan.shares.promise);
   const CloudsInBlocks in_blocks(clouds, layer.first, layer.end, frame);
-  const auto add_all = [&](int x, int y, int spacing, double* channels) {
-    std::fill_n(channels, is_ordered ? 6 : 3, 0.0);
-    const Vec3 direction = direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection);
-    for (const std::uint32_t k : in_blocks.at(x, y, spacing)) {
-      const CloudAround& cloud = clouds[k];
-      const double column = column_around(cloud, x, y, direction, frame.kernel, wide_sigma);
-      if (column == 0) continue;
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (!is_ordered) {
-          channels[c] +=
-              column * (light == LightPlan::emission ? cloud.emission[c] : cloud.absorption[c]);
-          continue;
+  const auto add_all = [&](const PixelsOfRow& pixels, const std::vector<std::uint32_t>& shown,
+                           double* channels) {
+    PixelsOfRow::OfPixels<double> columns;
+    for (const std::uint32_t k : shown) {
+      if (!columns_around(clouds[k], pixels, frame.kernel, wide_sigma, columns)) continue;
+      for (std::size_t i = 0; i < pixels.count; ++i) {
+        if (is_ordered) {
+          add_behind(clouds[k], columns[i], channels + 6 * i);
+        } else {
+          add_sum(clouds[k], columns[i], light, channels + 3 * i);
         }
-        const double depth = column * cloud.absorption[c];
-        channels[c] += std::exp(-channels[c + 3]) * cloud.emission[c] * column * phi(depth);
-        channels[c + 3] += depth;
       }
+    }
+  };
+  // Pixels of which the same clouds are seen at a time.
+  const auto pixels_of_row = [&](const std::vector<int>& x, int y, int spacing, double* channels) {
+    for (std::size_t first = 0, end = 0; first < x.size(); first = end) {
+      const std::vector<std::uint32_t>& shown = in_blocks.at(x[first], y, spacing);
+      while (end < x.size() && end - first < PixelsOfRow::most &&
+             &in_blocks.at(x[end], y, spacing) == &shown)
+        ++end;
+      add_all(PixelsOfRow(x.data() + first, end - first, y, frame), shown,
+              channels + first * channels_of_layer(plan));
     }
   };
   SmoothPictureSettings settings;
@@ -255,7 +280,7 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
       largest = std::max(largest, light_error(light, brightest, exact, foretold, c));
     return largest;
   };
-  return SmoothPicture(settings, add_all);
+  return SmoothPicture(settings, pixels_of_row);
 }
 
 void Surroundings::draw(const std::vector<CloudAround>& clouds, const Planes& planes) const {
