@@ -42,6 +42,10 @@ struct GalaxySettings {
   double dust_height_kpc = 0.05;  // standard deviation of its heights
   int dust_points = 3;            // particles for each pixel
 
+  // The disk flares: heights at radius r of the galaxy's radius R are exp(flare (r / R - 1/2))
+  // times those given here. 0: the same everywhere.
+  double flare = 1;
+
   // Stars of the disk.
   std::uint64_t disk_stars = 300000;
   double disk_width = 0.35;  // standard deviation across, of the galaxy's radius

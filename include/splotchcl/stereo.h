@@ -40,7 +40,7 @@ inline bool is_anaglyph(StereoLayout layout) {
 
 // Two eyes that lie angle * |look_at - position| apart (the angle in radians).
 struct Stereo {
-  double angle_degrees = 2;  // above 0, at most 45
+  double angle_degrees = 0.2;  // above 0, at most 45: docs/projections.md says how much is fused
   StereoMode mode = StereoMode::off_axis;
   StereoEyes eyes = StereoEyes::right_shifted;
   StereoLayout layout = StereoLayout::files;

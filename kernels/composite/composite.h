@@ -13,11 +13,12 @@ struct CubeFace {
 struct CompositeParameters {
   unsigned int grid_count;
   unsigned int first_segment, end_segment;
-  float phi_first;   // optical depth up to which one term of phi's series serves,
-  float phi_short;   // two,
-  float phi_third;   // three,
-  float phi_series;  // and four
-  float stop;        // where every pixel's transmittance is at most this; below 0: never
+  float phi_first;             // optical depth up to which one term of phi's series serves,
+  float phi_short;             // two,
+  float phi_third;             // three,
+  float phi_series;            // and four
+  float stop;                  // where every pixel's transmittance is at most this; below 0: never
+  unsigned int most_in_block;  // layers that rows put together before they come behind the others
   struct CubeFace face;
 };
 

@@ -34,7 +34,7 @@ static inline void load_opacities(float* tile, const TileInPlanes* place) {
 }
 
 // A layer that is thinner than half a rounding of the opacity in front of it adds light, but no
-// opacity. So layers are drawn by themselves in blocks of SPLATS_OF_BLOCK, and n of them err by as
+// opacity. So layers are drawn by themselves in blocks (most_in_block), and n of them err by as
 // many roundings and one for each block, not by n. Leaves nothing in the block.
 static inline void add_block(float* block, float* front) {
   for (int i = 0; i < SUMS * TILE_PIXELS; i += PATCH_WIDTH) {
@@ -180,7 +180,7 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
   const SplatTile of_tile = splat_tile(*grid, segment.tile, p);
   // Most lists of a large frame's many chunks: they need no front of their own.
   const int is_one_block =
-      segment.partial == NO_PARTIAL && segment.end - segment.begin < SPLATS_OF_BLOCK;
+      segment.partial == NO_PARTIAL && segment.end - segment.begin < p->most_in_block;
   float front[PLANES * TILE_PIXELS];
   if (!is_one_block) clear_planes(front);
   if (!is_one_block && segment.partial == NO_PARTIAL) load_opacities(front, place);
@@ -213,7 +213,7 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
       add_waiting(tile, &waiting);
       if (is_opaque(own_front, place, tile, p->stop)) break;
     }
-    if (drawn % SPLATS_OF_BLOCK == 0u) {
+    if (drawn % p->most_in_block == 0u) {
       add_waiting(tile, &waiting);
       add_block(tile, front);
       depth = 0.0f;

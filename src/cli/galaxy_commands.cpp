@@ -46,6 +46,8 @@ void add_matter_options(CLI::App& sub, GalaxySettings& s) {
   const auto add = [&sub](const char* name, auto& value, const char* type, const char* help) {
     sub.add_option(name, value, wrapped(help))->type_name(type)->capture_default_str();
   };
+  add("--flare", s.flare, "X",
+      "Heights at the rim are e^(X / 2) times those given here, in the middle e^(-X / 2)");
   add("--gas-height", s.gas_height_kpc, "KPC", "Standard deviation of the gas clouds' heights");
   add("--cloud-points", s.cloud_points, "N", "Gas particles for each pixel");
   add("--cloud-radius", s.cloud_radius_pixels, "PIXELS",

@@ -44,6 +44,7 @@ void check_settings(const GalaxySettings& s) {
   check_between(s.dust, 0, 100, "the factor on the dust");
   check_between(s.dust_height_kpc, 0, s.size_kpc, "the dust's height in kpc");
   check_between(s.dust_points, 1, 1000, "the number of dust particles in a pixel");
+  check_between(s.flare, 0, 10, "how much the disk flares");
   check_between(static_cast<double>(s.disk_stars), 0, most_stars, "the number of disk stars");
   check_above(s.disk_width, 0, "the width of the stars' disk");
   check_between(s.disk_height_kpc, 0, s.size_kpc, "the height of the stars' disk in kpc");

@@ -41,6 +41,15 @@ Vec3 place_in_ball(Random& random) {
 
 }  // namespace
 
+namespace {
+
+// A factor on heights.
+double flare_at(double radius_kpc, const LightMap& map, const GalaxySettings& settings) {
+  return std::exp(settings.flare * (radius_kpc / map.radius() - 0.5));
+}
+
+}  // namespace
+
 // Each particle has the colour of a pixel near the one above it, as if balls of particles of one
 // colour, wider than a pixel, overlapped: if each had the colour of its own pixel, every column of
 // particles would have one colour along z. It is the colour that is moved and not the particle, so
@@ -59,15 +68,16 @@ GalaxyParticles make_gas(const LightMap& map, const BulgeProfile& bulge,
       points.begin(x, y, random);
       for (int i = 0; i < settings.cloud_points; ++i) {
         const DiskPlane::Point pixel = points.place(i);
-        const double height = settings.gas_height_kpc * normal_quantile(points.layer(i, random));
+        const double quantile = normal_quantile(points.layer(i, random));
         const Vec3 aside = place_in_ball(random) * settings.cloud_radius_pixels;
         const DiskPlane::Point disk = map.plane().in_disk(pixel);
         const DiskPlane::Point lit =
             map.plane().in_disk({pixel[0] + aside.a[0], pixel[1] + aside.a[1]});
         const Light color = share * bulge.rest(map.at(lit), std::hypot(lit[0], lit[1]));
         if (!(mean(color) > 0)) continue;
-        add_particle(gas, {{disk[0], disk[1], height}}, color, mass, axis,
-                     std::hypot(disk[0], disk[1]));
+        const double radius = std::hypot(disk[0], disk[1]);
+        const double height = flare_at(radius, map, settings) * settings.gas_height_kpc * quantile;
+        add_particle(gas, {{disk[0], disk[1], height}}, color, mass, axis, radius);
       }
     }
   }
@@ -89,9 +99,11 @@ GalaxyParticles make_dust(const LightMap& map, const GalaxySettings& settings) {
       if (depth < least_depth) continue;
       for (int i = 0; i < settings.dust_points; ++i) {
         const DiskPlane::Point disk = map.plane().in_disk(points.place(i));
-        const double height = settings.dust_height_kpc * normal_quantile(points.layer(i, random));
+        const double radius = std::hypot(disk[0], disk[1]);
+        const double height = flare_at(radius, map, settings) * settings.dust_height_kpc *
+                              normal_quantile(points.layer(i, random));
         add_particle(dust, {{disk[0], disk[1], height}}, map.dust().opacity(), depth * area, axis,
-                     std::hypot(disk[0], disk[1]));
+                     radius);
       }
     }
   }
@@ -125,8 +137,9 @@ GalaxyParticles make_disk_stars(const LightMap& map, const BulgeProfile& bulge,
     const Vec3 even = even_place(i, random, jitter);
     const double radius = width * std::sqrt(-2 * std::log1p(-even.a[0]));
     const double angle = 2 * pi * even.a[1];
-    const Vec3 place = {{radius * std::cos(angle), radius * std::sin(angle),
-                         settings.disk_height_kpc * normal_quantile(even.a[2])}};
+    const Vec3 place = {
+        {radius * std::cos(angle), radius * std::sin(angle),
+         flare_at(radius, map, settings) * settings.disk_height_kpc * normal_quantile(even.a[2])}};
     const Light around = bulge.rest(map.at({place.a[0], place.a[1]}), radius);
     const Light color = star_color(settings.disk_light * around, random);
     // Where stars are few each stands for a larger area. Dark places have none.

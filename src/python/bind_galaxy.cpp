@@ -34,6 +34,7 @@ const std::map<std::string, Set>& settings_by_name() {
       {"size", member(&S::size_kpc)},
       {"threshold", member(&S::threshold)},
       {"removes_stars", member(&S::removes_stars)},
+      {"flare", member(&S::flare)},
       {"gas_height", member(&S::gas_height_kpc)},
       {"cloud_points", member(&S::cloud_points)},
       {"cloud_radius", member(&S::cloud_radius_pixels)},

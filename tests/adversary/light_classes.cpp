@@ -64,6 +64,18 @@ Trial many_colors(Random& random) {
   return trial;
 }
 
+Trial equal_layers_behind_opaque(Random& random) {
+  CloudGroup opaque = group_of(Arrangement::point, random, 3, 30, 3, 100);
+  CloudGroup layers = group_of(Arrangement::point, random, 2, 20, 1e-3, 3);
+  layers.x = opaque.x + random.uniform(-5, 5);
+  layers.y = opaque.y + random.uniform(-5, 5);
+  layers.copies = whole(random, 100, 2000);
+  layers.depth = 2 * opaque.depth;
+  Trial trial = with({opaque, layers});
+  trial.background = random.logarithmic(3, 300);
+  return trial;
+}
+
 Trial certified(Random& random) {
   const auto choice = static_cast<int>(random.uniform(0, 7));
   Trial trial = choice == 0   ? two_sources(random)
@@ -105,6 +117,8 @@ std::vector<TrialClass> light_classes() {
        {Light::ordered},
        usual,
        tinted_matter},
+      {"equal_layers_behind_opaque", "they err by equal roundings of an opacity close to 1",
+       all_lights, usual, equal_layers_behind_opaque},
       {"many_colors", "places in a palette are rounded", all_lights, usual, many_colors},
       {"certified",
        "a bound is not passed anywhere",

@@ -90,6 +90,7 @@ TEST(GalaxyShape, RightAndUpAreThoseOfThePicture) {
 TEST(GalaxyShape, DiskIsThinAndBulgeIsRound) {
   GalaxySettings settings = small_settings();
   settings.radius_pixels = 70;
+  settings.flare = 0;
   const Galaxy galaxy = make_galaxy(DiskPicture().draw(), settings);
   EXPECT_NEAR(deviation(galaxy.gas, 2), settings.gas_height_kpc, 0.005);
   EXPECT_NEAR(deviation(galaxy.dust, 2), settings.dust_height_kpc, 0.002);
@@ -98,6 +99,29 @@ TEST(GalaxyShape, DiskIsThinAndBulgeIsRound) {
   EXPECT_GT(deviation(galaxy.disk, 0), 5 * deviation(galaxy.disk, 2));
   EXPECT_NEAR(deviation(galaxy.bulge, 2) / deviation(galaxy.bulge, 0), settings.bulge_flattening,
               0.08);
+}
+
+TEST(GalaxyShape, DiskFlares) {
+  GalaxySettings flat = small_settings();
+  flat.radius_pixels = 70;
+  flat.flare = 0;
+  GalaxySettings flaring = flat;
+  flaring.flare = 1.5;
+  const Galaxy even = make_galaxy(DiskPicture().draw(), flat);
+  const Galaxy flared = make_galaxy(DiskPicture().draw(), flaring);
+  constexpr double radius = 7;  // kpc
+  const auto check = [](const GalaxyParticles& thin, const GalaxyParticles& thick) {
+    ASSERT_EQ(thin.count(), thick.count());
+    for (std::size_t i = 0; i < thin.count(); ++i) {
+      const double r = std::hypot(thin.position[3 * i], thin.position[3 * i + 1]);
+      const double factor = std::exp(1.5 * (r / radius - 0.5));
+      ASSERT_NEAR(thick.position[3 * i + 2], factor * thin.position[3 * i + 2], 1e-5)
+          << "at radius " << r;
+    }
+  };
+  check(even.gas, flared.gas);
+  check(even.dust, flared.dust);
+  check(even.disk, flared.disk);
 }
 
 TEST(GalaxyShape, NumbersOfClusterStarsAreRandom) {

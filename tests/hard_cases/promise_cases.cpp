@@ -364,6 +364,11 @@ std::vector<HardCase> promise_cases() {
             "layers too thin for the rounding of an opacity still add light",
             "tolerance 0.0001 group point places 100 copies 200 y -100 sigma 30 peak 9000",
             {LightPlan::ordered}),
+      found("EqualLayersBetweenAnOpaqueOneAndABackground",
+            "each errs by the same rounding of an opacity close to 1",
+            "light ordered background 70 group point sigma 8 peak 60 group point places 10 copies "
+            "80 sigma 4 hue 1",
+            {LightPlan::ordered}),
       found("EqualLayersBeforeABackground",
             "equal layers err by equal roundings of their opacities",
             "light gray tolerance 1e-05 background 4 group corner copies 200 width_range 1.02506 "

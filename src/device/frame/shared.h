@@ -61,7 +61,7 @@ static_assert(has_words<BinParameters, 26>);
 static_assert(has_words<SplatTiles, 4>);
 static_assert(has_words<GroupBinParameters, 27>);
 static_assert(has_words<Segment, 4>);
-static_assert(has_words<CompositeParameters, 15>);
+static_assert(has_words<CompositeParameters, 16>);
 static_assert(has_words<CloudEntry, 16>);
 static_assert(has_words<CloudSplat, 7>);
 static_assert(has_words<DirectionCone, 5>);

@@ -15,13 +15,12 @@ std::string define(const std::string& name_and_value) {
 
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than
 // 3e-5, but adding up smaller blocks takes rows as long as drawing them. Sums of light to three
-// digits need none beside the lists; opacities stand still behind too many layers. Behind many
+// digits need none beside the lists. Rows of an ordered frame are told (LayerLimits). Behind many
 // equal layers of opacity a bright background shows half as many roundings.
 std::string splats_of_block(const Variant& v) {
   if (v.small_blocks && v.is_ordered()) return define("SPLATS_OF_BLOCK 32u");
   if (v.small_blocks || !v.rows) return define("SPLATS_OF_BLOCK 64u");
-  if (v.full_precision) return define("SPLATS_OF_BLOCK 256u");
-  return v.is_ordered() ? define("SPLATS_OF_BLOCK 1024u") : "";
+  return v.full_precision && !v.is_ordered() ? define("SPLATS_OF_BLOCK 256u") : "";
 }
 
 // Constants that kernels ask for by `if`, or `#if` where something is declared.

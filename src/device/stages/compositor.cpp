@@ -47,6 +47,7 @@ Compositor::Compositor(const StageContext& context)
   parameters_.phi_third = context.plan.layers.phi_third;
   parameters_.phi_series = context.plan.layers.phi_series;
   parameters_.stop = context.plan.layers.stop;
+  parameters_.most_in_block = context.plan.layers.most_in_block;
   const CameraFrame& camera = context.frame.camera;
   parameters_.face = {pair_of(camera.center_x), pair_of(camera.center_y),
                       pair_of(1 / camera.focal_pixels), 0};

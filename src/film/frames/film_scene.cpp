@@ -98,6 +98,11 @@ Camera upright(Camera camera, const ImageSettings& image) {
   return camera;
 }
 
+bool shows_the_same(const std::optional<Camera>& a, const std::optional<Camera>& b) {
+  return a && b && a->position == b->position && a->look_at == b->look_at &&
+         a->field_of_view_degrees == b->field_of_view_degrees && a->projection == b->projection;
+}
+
 }  // namespace
 
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
@@ -106,6 +111,8 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   WatchedFiles opening;  // a scene file may change later on: it is read only once
   opening.add(path);
   SceneWithSnapshot opened = open_scene(path, settings, ranks);
+  const bool has_suggested_view =
+      opened.suggested && shows_the_same(opened.scene.camera, opened.suggested->camera);
   scene_ = std::move(opened.scene);
   notes_ = std::move(opened.notes);
   watch_files();
@@ -113,6 +120,7 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
+  if (has_suggested_view && scene_.time.is_set() && target.name.empty()) show_whole_course(scene_);
   // A scene file that says how long its film is says what it is, too.
   if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {
     const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,9 +12,11 @@
 #include "common/words.h"
 #include "film/follow/find_followed.h"
 #include "film/follow/followed_particles.h"
+#include "load/suggest_camera.h"
 #include "scene_file/values.h"
 #include "sequence/list_sequence.h"
 #include "splotchcl/error.h"
+#include "splotchcl/snapshot_source.h"
 
 namespace splotchcl {
 namespace {
@@ -84,7 +89,52 @@ void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
   scene.camera->position += shift;
 }
 
+constexpr std::size_t most_looked_at = 5;
+
+// Of the first snapshot, the last, and some between.
+std::vector<Target> targets_of_course(const Scene& scene) {
+  const std::vector<ListedSnapshot> list = list_sequence(scene.time);
+  const std::size_t count = std::min(list.size(), most_looked_at);
+  std::vector<Target> targets;
+  SnapshotSource snapshots;
+  for (std::size_t k = 0; k < count; ++k) {
+    Scene at = scene;
+    at.time.index = list[count == 1 ? 0 : k * (list.size() - 1) / (count - 1)].index;
+    std::vector<int> types;
+    for (const Component& component : at.components)
+      types.insert(types.end(), component.types.begin(), component.types.end());
+    targets.push_back(suggest_target(*snapshots.at(at), types, at.image.width, at.image.height));
+  }
+  return targets;
+}
+
+// Holds all of them, from any side: those of other times lie beside the middle.
+Target target_around(const std::vector<Target>& targets) {
+  using namespace boost::qvm;
+  Target around = targets.back();
+  Vec3 least = around.center, most = around.center;
+  for (const Target& target : targets) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      least.a[axis] = std::min(least.a[axis], target.center.a[axis]);
+      most.a[axis] = std::max(most.a[axis], target.center.a[axis]);
+    }
+  }
+  around.center = 0.5 * (least + most);
+  around.size = 0;
+  for (const Target& target : targets)
+    around.size = std::max(around.size, mag(target.center - around.center) + target.size);
+  return around;
+}
+
 }  // namespace
+
+void show_whole_course(Scene& scene) {
+  const std::vector<Target> targets = targets_of_course(scene);
+  const bool has_box = std::any_of(targets.begin(), targets.end(), [](const Target& target) {
+    return target.shape == Target::Shape::box;
+  });
+  if (!has_box) scene.camera = suggest_camera(target_around(targets));
+}
 
 std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene) {
   PathSettings& path = scene.path;

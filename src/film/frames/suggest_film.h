@@ -16,4 +16,8 @@ namespace splotchcl {
 // that is none, and for one in a scene with a path. Returns a note of what was chosen, or "".
 std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene);
 
+// Moves the camera of a sequence's suggested scene so far away that it shows what there is at any
+// time, from wherever an orbit leads it. Periodic boxes stay as they are. Throws as readers do.
+void show_whole_course(Scene& scene);
+
 }  // namespace splotchcl

@@ -128,6 +128,12 @@ double response_to_layers(const Frame& frame, const FramePlan& plan, double most
   return std::max(guess, plan.needs.response_to_layers);
 }
 
+// Of layers whose roundings do not show. Adding up small blocks takes rows as long as drawing them.
+std::uint32_t longest_block(const FramePlan& plan) {
+  if (plan.adds_small_blocks) return 32;
+  return plan.precision == Precision::fast ? 1024 : 256;
+}
+
 // Everything that follows from the precision, the shares and the needs.
 void set_limits(const Frame& frame, FramePlan& plan) {
   const double background = brightest_background(frame);
@@ -152,8 +158,8 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   }
   const double of_layers = response_to_layers(frame, plan, unchecked);
   plan.shape_error = error_of_shapes(plan.precision);
-  plan.layers =
-      choose_layer_limits(plan.shares, plan.light, std::max(background, source), of_layers);
+  plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source),
+                                    of_layers, longest_block(plan));
 }
 
 // Bounds are several times larger than estimates.

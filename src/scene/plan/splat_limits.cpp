@@ -136,8 +136,18 @@ SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& share
 // phi(y) exp(y) = (exp(y) - 1) / y times that, for depths up to 0.5.
 constexpr double phi_of_thin_layers = 1.3;
 
+// Behind an opaque front each of a block's equal layers errs by the same half a rounding of 1.
+std::uint32_t most_in_block(double promise, double brightest_behind, std::uint32_t longest) {
+  constexpr std::uint32_t fewest = 32;
+  constexpr double part_of_promise = 0.25, half_rounding = 0x1p-25;
+  while (longest > fewest && longest * half_rounding * brightest_behind > part_of_promise * promise)
+    longest /= 2;
+  return longest;
+}
+
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
-                                double brightest_behind, double response) {
+                                double brightest_behind, double response,
+                                std::uint32_t longest_block) {
   LayerLimits limits;
   // One term of the series errs by y / 2 of phi, two by y^2 / 6, three by y^3 / 24, four by
   // y^4 / 120.
@@ -152,6 +162,10 @@ LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
   // products, the sum), and with it what shines through.
   limits.keeps_transmittance =
       light == LightPlan::ordered && 10 * 0x1p-24 * brightest_behind > shares.early_stop;
+  // Roundings of transmittances are parts of themselves.
+  limits.most_in_block = limits.keeps_transmittance
+                             ? longest_block
+                             : most_in_block(shares.promise, brightest_behind, longest_block);
   return limits;
 }
 

@@ -48,7 +48,9 @@ SplatLimits choose_splat_limits(const Frame& frame, const ToleranceShares& share
                                 const Responses& response);
 
 // `brightest_behind`: the most that can shine through a layer. `response`: of every layer alike.
+// `longest_block`: as many layers as are put together where their roundings do not show.
 LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
-                                double brightest_behind, double response);
+                                double brightest_behind, double response,
+                                std::uint32_t longest_block);
 
 }  // namespace splotchcl
