@@ -61,19 +61,19 @@ class FrameBuffers {
 
   // Which tiles each is listed in.
   std::uint64_t tiles(std::uint64_t splats) const {
-    return splats * (traits_.rows ? sizeof(std::uint32_t)
+    return splats * (variant_.rows ? sizeof(std::uint32_t)
                                   : sizeof(shared::SplatTiles) + sizeof(std::uint32_t));
   }
 
   // The same of a chunk's, where they are not with the splats. Of a GPU where these lie as well.
   std::uint64_t tiles_of_chunk() const {
-    const std::uint64_t order = traits_.rows ? 0 : chunk_splats() * sizeof(std::uint32_t);
+    const std::uint64_t order = variant_.rows ? 0 : chunk_splats() * sizeof(std::uint32_t);
     return order + (variant_.has_own_tiles() ? 0 : tiles(chunk_splats()));
   }
 
   // Splats that were put in order for their lists; only by the shape for processors.
   std::uint64_t splats_in_order(std::uint64_t count) const {
-    return (traits_.rows ? count * variant_.splat_bytes() : 0) + tiles(count);
+    return (variant_.rows ? count * variant_.splat_bytes() : 0) + tiles(count);
   }
 
   // Of the lists of as many tiles as fit.
@@ -86,9 +86,9 @@ class FrameBuffers {
     const std::uint64_t capacity = entry_capacity(plan_, traits_);
     const std::uint64_t segments = layout_.tile_count + capacity / traits_.segment_length + 1;
     // Of a GPU: tiles and splats of all entries, from where and to where they are sorted.
-    const std::uint64_t pairs = traits_.rows ? 0 : 4 * sizeof(std::uint32_t);
+    const std::uint64_t pairs = variant_.rows ? 0 : 4 * sizeof(std::uint32_t);
     const std::uint64_t of_blocks = (layout_.has_parts() ? 2 : 1) * blocks;
-    const std::uint64_t counts = traits_.rows ? of_blocks + 2 : 2 * COPIES_OF_COUNTS;
+    const std::uint64_t counts = variant_.rows ? of_blocks + 2 : 2 * COPIES_OF_COUNTS;
     return counts * layout_.tile_count * sizeof(std::uint32_t) +
            segments * sizeof(shared::Segment) + entries() + capacity * pairs;
   }

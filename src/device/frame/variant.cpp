@@ -9,10 +9,6 @@
 namespace splotchcl {
 namespace {
 
-std::string define(const std::string& name_and_value) {
-  return "#define " + name_and_value + "\n";
-}
-
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than
 // 3e-5, but adding up smaller blocks takes rows as long as drawing them. Sums of light to three
 // digits need none beside the lists. Rows of an ordered frame are told (LayerLimits). Behind many
@@ -57,13 +53,6 @@ std::string defines_of(const Variant& v) {
   for (const auto& [name, value] : constants)
     defines += define(name + (" " + std::to_string(value)));
   return defines + splats_of_block(v);
-}
-
-std::string defines_of(const Choices& choices) {
-  std::string defines;
-  for (const std::string& choice : choices)
-    defines += define(choice);
-  return defines;
 }
 
 }  // namespace
@@ -129,24 +118,10 @@ std::size_t Variant::tile_splat_bytes() const {
   return shape + (is_ordered() ? 6 : 3) * sizeof(float);
 }
 
-ProgramSource program_source(const std::string& file, const Choices& choices) {
-  ProgramSource source;
-  source.file = file;
-  source.defines = defines_of(choices);
-  return source;
-}
-
 ProgramSource program_source(const Variant& variant, const std::string& file,
                              const Choices& choices) {
   ProgramSource source = program_source(file, choices);
   source.variant = defines_of(variant);
-  return source;
-}
-
-ProgramSource program_of_layers(const Variant& variant, const std::string& file,
-                                const Choices& choices) {
-  ProgramSource source = program_source(variant, file, choices);
-  source.denormals_are_zero = !variant.extended;
   return source;
 }
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "device/opencl/device_traits.h"
 #include "device/opencl/program_text.h"
@@ -62,23 +61,7 @@ struct Variant {
   Variant of_slabs() const;
 };
 
-// What a program is told beside its variant: "NAME" or "NAME value".
-using Choices = std::vector<std::string>;
-
-inline std::string flag(const std::string& name, bool is_set) {
-  return name + (is_set ? " 1" : " 0");
-}
-
-ProgramSource program_source(const std::string& file, const Choices& choices = {});
 ProgramSource program_source(const Variant& variant, const std::string& file,
                              const Choices& choices = {});
-// Of light in layers, which fades to denormal numbers behind many: no picture shows them.
-ProgramSource program_of_layers(const Variant& variant, const std::string& file,
-                                const Choices& choices = {});
-
-// Lanes of a program that does not depend on the frame.
-inline Choices lanes_of(bool rows) {
-  return rows ? Choices{"LANES_8"} : Choices{};
-}
 
 }  // namespace splotchcl

@@ -34,6 +34,18 @@ std::string extras_of(const compute::device& device) {
 
 }  // namespace
 
+std::string define(const std::string& choice) {
+  return "#define " + choice + "\n";
+}
+
+ProgramSource program_source(const std::string& file, const Choices& choices) {
+  ProgramSource source;
+  source.file = file;
+  for (const std::string& choice : choices)
+    source.defines += define(choice);
+  return source;
+}
+
 ProgramText text_of(const ProgramSource& source, const compute::device& device) {
   const std::string file = source.file.empty() ? "" : include_of(source.file);
   const std::string text = flattened(file + source.more);

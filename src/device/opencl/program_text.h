@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "device/opencl/opencl.h"
 
@@ -17,6 +18,23 @@ struct ProgramSource {
   // for an operation on such a number as for another one.
   bool denormals_are_zero = false;
 };
+
+// What a program is told: "NAME" or "NAME value".
+using Choices = std::vector<std::string>;
+
+inline std::string flag(const std::string& name, bool is_set) {
+  return name + (is_set ? " 1" : " 0");
+}
+
+// Lanes of a program that does not depend on the frame.
+inline Choices lanes_of(bool rows) {
+  return rows ? Choices{"LANES_8"} : Choices{};
+}
+
+// "#define CHOICE" and the end of the line.
+std::string define(const std::string& choice);
+
+ProgramSource program_source(const std::string& file, const Choices& choices = {});
 
 // The same as a compiler takes it.
 struct ProgramText {

@@ -31,7 +31,7 @@ Binner::Binner(const StageContext& context)
       no_order_(context.device.pool.get<std::uint32_t>(0, "unused")),
       no_blocks_(context.device.pool.get<shared::BlockCounts>(0, "unused")) {
   const DeviceTraits& traits = context.device.traits;
-  if (!traits.rows) groups_.emplace(context);
+  if (!context.variant.rows) groups_.emplace(context);
   entry_capacity_ = entry_capacity(context.plan, traits);
   const PictureLayout& layout = context.layout;
   parameters_.tile_count = layout.tile_count;

@@ -158,7 +158,7 @@ void Certifier::collect(const TileLists& lists) {
   if (!has_started()) start();
   shared::CertifyParameters parameters = parameters_;
   parameters.segment_count = lists.segment_count;
-  if (!context_.device.traits.rows) {
+  if (!context_.variant.rows) {
     collect_in_groups(lists, parameters);
     return;
   }

@@ -38,7 +38,7 @@ Compositor::Compositor(const StageContext& context)
   ProgramCache& programs = context.device.programs;
   const Variant& variant = context.variant;
   layers_.composite = programs.get(composite_program(variant));
-  if (context.device.traits.rows) programs.get(program_source("kernels/common/clear.cl"));
+  if (context.variant.rows) programs.get(program_source("kernels/common/clear.cl"));
   if (context.plan.slabs > 0)
     slabs_.composite = programs.get(composite_program(variant.of_slabs()));
   parameters_.grid_count = static_cast<std::uint32_t>(context.layout.grids.size());

@@ -109,7 +109,7 @@ CollectingRoom Resolver::room_for_collecting() const {
   for (std::size_t level = 0; level < pyramid.level_grids.size(); ++level) {
     const shared::GridPart& part = wanted[level];
     floats = std::max(floats, refined_rows(part) * 16 * refined_strips(part));
-    const bool by_axes = !context_.device.traits.rows && pyramid.is_blurred();
+    const bool by_axes = !context_.variant.rows && pyramid.is_blurred();
     if (by_axes && static_cast<int>(level) >= pyramid.first_level)
       floats = std::max(floats, blurred_floats(part, reach_of_blurs(pyramid)));
   }
@@ -178,7 +178,7 @@ std::vector<std::size_t> Resolver::blurs_with_light(const Planes& planes, int le
 // What the target takes from the level's grids of these blurs.
 void Resolver::blur(const Planes& planes, const std::vector<std::size_t>& blurs, int level,
                     const LevelLight& target, bool add, const CollectingRoom& room) const {
-  if (context_.device.traits.rows) {
+  if (context_.variant.rows) {
     blur_in_strips(planes, blurs, level, target, add);
     return;
   }

@@ -23,6 +23,14 @@ std::string composite_file(const Variant& variant) {
          shape;
 }
 
+// Of light in layers, which fades to denormal numbers behind many: no picture shows them.
+ProgramSource program_of_layers(const Variant& variant, const std::string& file,
+                                const Choices& choices = {}) {
+  ProgramSource source = program_source(variant, file, choices);
+  source.denormals_are_zero = !variant.extended;
+  return source;
+}
+
 }  // namespace
 
 ProgramSource project_program(const Variant& variant, ProjectOutput output) {
