@@ -67,7 +67,12 @@ GaussianOnSky::GaussianOnSky(const Vec3& place, double sigma)
     : middle_({{1, 0, 0}}), distance_(mag(place) / sigma) {
   if (distance_ > 0) middle_ = place / mag(place);
   width_ = distance_ > 1 ? 1 / distance_ : 1;
-  reach_ = distance_ > kernel_reach ? std::asin(kernel_reach / distance_) : pi;
+}
+
+double GaussianOnSky::reach_of(double square) const {
+  const double reach = std::min(std::sqrt(square), kernel_reach);
+  // Behind the origin lies as much as at this distance.
+  return distance_ > reach ? std::asin(reach / distance_) : pi;
 }
 
 double GaussianOnSky::square(const Vec3& direction) const {

@@ -31,12 +31,14 @@ class GaussianOnSky {
   // Sigma as an angle; the origin sees no structure above about one radian.
   double width() const { return width_; }
   // The angle from its middle beyond which nothing is left; pi where it is all around.
-  double reach() const { return reach_; }
+  double reach() const { return reach_of(kernel_reach * kernel_reach); }
+  // Beyond which square() is larger, and nothing is left for one beyond kernel_reach.
+  double reach_of(double square) const;
 
  private:
   Vec3 middle_;
   double distance_;  // in sigma
-  double width_, reach_;
+  double width_;
 };
 
 }  // namespace splotchcl

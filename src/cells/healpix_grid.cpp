@@ -14,6 +14,18 @@ namespace {
 constexpr int row_of_face[] = {2, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4};
 constexpr int longitude_of_face[] = {1, 3, 5, 7, 0, 2, 4, 6, 1, 3, 5, 7};
 
+// Patches that are smaller have the same shape.
+constexpr int most_known = 20;
+
+// Of the pixels of a grid of such squares, the one that reaches farthest: at the edge of a cap.
+double radius_of_part(double part) {
+  const double angle = 0.25 * pi * part, z = 1 - (1 - part) * (1 - part) / 3;
+  const double cosine =
+      std::sqrt(5.0) / 3 * std::sqrt(std::max(0.0, 1 - z * z)) * std::cos(angle) + 2.0 / 3 * z;
+  // A little more for small ones, whose cosine has no digits left.
+  return part > 1e-3 ? std::acos(std::min(1.0, cosine)) : 1.07 * part;
+}
+
 // The bits of a number, with a place left free between each two.
 std::uint64_t spread_bits(std::uint64_t bits) {
   std::uint64_t spread = 0;
@@ -28,7 +40,10 @@ bool is_healpix_side(int nside) {
   return nside > 0 && nside <= most_healpix_sides && (nside & (nside - 1)) == 0;
 }
 
-HealpixGrid::HealpixGrid(int nside, HealpixOrder order) : nside_(nside), order_(order) {}
+HealpixGrid::HealpixGrid(int nside, HealpixOrder order) : nside_(nside), order_(order) {
+  for (int level = 0; level <= most_known; ++level)
+    radius_.push_back(radius_of_part(std::ldexp(1, -level)));
+}
 
 std::size_t HealpixGrid::cells() const {
   return 12 * static_cast<std::size_t>(nside_) * static_cast<std::size_t>(nside_);
@@ -92,14 +107,10 @@ Vec3 HealpixGrid::direction(int face, double x, double y) const {
   return {{radius * std::cos(angle), radius * std::sin(angle), z}};
 }
 
-// Of the pixels of a grid of such squares, the one that reaches farthest: at the edge of a cap.
 double HealpixGrid::radius(const SkyPatch& patch) const {
-  const double part = std::max(patch.width, patch.height) / nside_;
-  const double angle = 0.25 * pi * part, z = 1 - (1 - part) * (1 - part) / 3;
-  const double cosine =
-      std::sqrt(5.0) / 3 * std::sqrt(std::max(0.0, 1 - z * z)) * std::cos(angle) + 2.0 / 3 * z;
-  // A little more for small ones, whose cosine has no digits left.
-  return part > 1e-3 ? std::acos(std::min(1.0, cosine)) : 1.07 * part;
+  const int level = std::max(0, -std::ilogb(std::max(patch.width, patch.height) / nside_));
+  const auto known = static_cast<std::size_t>(level);
+  return known < radius_.size() ? radius_[known] : std::ldexp(radius_.back(), most_known - level);
 }
 
 bool HealpixGrid::is_bent(const SkyPatch& patch) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "cells/sky_grid.h"
 #include "splotchcl/map_settings.h"
 
@@ -31,6 +33,7 @@ class HealpixGrid : public SkyGrid {
 
   int nside_;
   HealpixOrder order_;
+  std::vector<double> radius_;  // of a face, of a quarter of it, ...
 };
 
 }  // namespace splotchcl

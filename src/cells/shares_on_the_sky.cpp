@@ -32,11 +32,21 @@ constexpr std::array<Rule, 3> rules = {{
 // Of cells that are no squares in the sky, the longer side over their mean side.
 constexpr double stretch = 1.2;
 
+// How far out, as GaussianOnSky::square() has it, there is more than a hair of what may be wrong.
+double squares_that_count(const SkyAccuracy& accuracy) {
+  constexpr double hair = 1e-3;
+  return std::log(1 / std::clamp(hair * accuracy.tolerance * accuracy.floor, 1e-300, 1e-2));
+}
+
 class SkySpread {
  public:
   SkySpread(const SkyGrid& grid, const GaussianOnSky& particle, const SkyAccuracy& accuracy,
             std::vector<CellShare>& shares)
-      : grid_(grid), particle_(particle), accuracy_(accuracy), shares_(shares) {}
+      : grid_(grid),
+        particle_(particle),
+        accuracy_(accuracy),
+        reach_(particle.reach_of(squares_that_count(accuracy))),
+        shares_(shares) {}
 
   // Down to whole cells.
   void find_cells(const SkyPatch& patch, std::vector<SkyPatch>& cells) const {
@@ -66,7 +76,7 @@ class SkySpread {
   }
 
   bool is_out_of_reach(const SkyPatch& patch, const Vec3& direction) const {
-    const double farthest = particle_.reach() + grid_.radius(patch);
+    const double farthest = reach_ + grid_.radius(patch);
     if (farthest >= pi) return false;
     // The chord has digits where the cosine of small angles has none.
     const double chord = 2 * std::sin(0.5 * farthest);
@@ -154,6 +164,7 @@ class SkySpread {
   const SkyGrid& grid_;
   const GaussianOnSky& particle_;
   SkyAccuracy accuracy_;
+  double reach_;
   std::vector<CellShare>& shares_;
   std::size_t first_ = shares_.size();
 };

@@ -11,6 +11,7 @@
 #include "common/output_files.h"
 #include "common/quiet_errors.h"
 #include "map/named_place.h"
+#include "map/shape.h"
 #include "open_scene/input_files.h"
 #include "select/selection.h"
 #include "snapshot/field_names.h"
@@ -305,7 +306,11 @@ void name_by_types(const MapOptions& options, SceneWithSnapshot& source) {
   scene.components.front().name = fmt::format("{}", fmt::join(names, " and "));
 }
 
-DrawFrame drawing(const MapOptions& options, std::optional<Renderer>& renderer) {
+// Sums in cells need no device.
+DrawFrame drawing(const MapOptions& options, const Scene& scene, Console& console,
+                  std::optional<Renderer>& renderer) {
+  if (is_made_of_cells(shape_of(scene.map))) return {};
+  console.status("starting the device");
   if (options.reference) {
     return [](const Frame& frame) { return reference::render(frame).to_float(); };
   }
@@ -373,9 +378,8 @@ int run_map(const MapOptions& options, Console& console) {
   for (const std::string& note : source.notes) {
     if (note != not_drawn) console.note(note);
   }
-  console.status("starting the device");
   std::optional<Renderer> renderer;
-  const DrawFrame draw = drawing(options, renderer);
+  const DrawFrame draw = drawing(options, source.scene, console, renderer);
 
   const SnapshotInfo& info = source.snapshot->info();
   console.status("mapping " + info.files.front().filename().string());

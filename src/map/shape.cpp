@@ -32,7 +32,8 @@ void refuse_key(const std::string& key, const std::string& expected) {
 
 void check_shell(const MapSettings& settings, MapShape shape) {
   if (!settings.shell) return;
-  if (!is_around_the_center(shape)) refuse_key("shell", "it beside map.healpix, map.profile or a sky");
+  if (!is_around_the_center(shape))
+    refuse_key("shell", "it beside map.healpix, map.profile or a sky");
   const auto [low, high] = *settings.shell;
   const bool is_open = shape == MapShape::profile ? low > 0 : low >= 0;
   if (is_open && high > low) return;
