@@ -213,8 +213,9 @@ std::vector<float> profile_rows(const Map& map) {
 // Version 1.0 of NumPy's format: the header is padded so that the values begin at a multiple of 64
 // bytes.
 std::vector<unsigned char> encode_npy(const Map& map) {
-  std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({},), }}",
-                                   fmt::join(npy_shape(map), ", "));
+  const std::vector<int> shape = npy_shape(map);
+  std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}{}), }}",
+                                   fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
   constexpr std::size_t start = 10, alignment = 64;
   while ((start + header.size() + 1) % alignment != 0)
     header += ' ';

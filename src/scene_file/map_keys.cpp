@@ -105,11 +105,12 @@ Key lengths_key(const std::string& name, const ValueType<V>& numbers_of, const c
 
 // A number alone stands for all.
 template <std::size_t size>
-ValueType<std::array<int, size>> counts(int at_most, const std::string& expected) {
+ValueType<std::array<int, size>> counts(int at_least, const std::string& expected) {
+  constexpr int at_most = 8192;
   using Counts = std::array<int, size>;
-  const auto read = [at_most](const toml::node& node) -> std::optional<Counts> {
+  const auto read = [at_least](const toml::node& node) -> std::optional<Counts> {
     Counts values{};
-    if (const auto one = integer(0, at_most).read(node)) {
+    if (const auto one = integer(at_least, at_most).read(node)) {
       values.fill(*one);
       return values;
     }
@@ -180,28 +181,24 @@ Keys velocity_keys() {
 Keys shape_keys() {
   return {
       key("map.healpix", integer(0, 8192), &MapSettings::healpix,
-          {"A map of the sphere around the centre, with this NSIDE."}),
+          {"A map of the sphere around the centre: its NSIDE."}),
       key("map.healpix_order",
           choice<HealpixOrder>({{"ring", HealpixOrder::ring}, {"nested", HealpixOrder::nested}}),
           &MapSettings::healpix_order, {"How its pixels are numbered."}),
       lengths_key<std::array<double, 2>>(
           "shell", two_numbers({}, "[from, to]"), "10,20Mpc", &MapSettings::shell,
-          {"Between these distances from the centre: the particles of a sphere or a sky; the "
-           "shells "
-           "of a profile.",
-           "length",
-           "all; of a profile to half of the box, or the last particle, from a thousandth "
-           "of it"}),
+          {"Distances from the centre: of particles of a sphere or sky, of a profile's shells.",
+           "length", "all (maps.md)"}),
       key("map.tile", boolean(), &MapSettings::tile,
-          {"A sphere or a sky has every periodic image in `shell`, not only the nearest."}),
-      key("map.voxels", counts<3>(8192, "a number, or [NX, NY, NZ], each from 1 to 8192"),
-          &MapSettings::voxels, {"A cube of voxels, along x, y and z; `width` is that along x."}),
+          {"A sphere or sky has every periodic image in `shell`."}),
+      key("map.voxels", counts<3>(0, "a number, or [NX, NY, NZ], up to 8192"), &MapSettings::voxels,
+          {"A cube of voxels; `width` is along x."}),
       key("map.profile", integer(0, 100000), &MapSettings::profile,
           {"A radial profile in this many shells."}),
       key("map.histogram", texts(), &MapSettings::histogram,
-          {"A histogram of two fields, the first to the right.", "", "none"}),
-      key("map.bins", counts<2>(8192, "a number, or [X, Y], each from 1 to 8192"),
-          &MapSettings::bins, {"Of the histogram."}),
+          {"Of two fields, the first to the right.", "", "none"}),
+      key("map.bins", counts<2>(1, "a number, or [X, Y], up to 8192"), &MapSettings::bins,
+          {"Of the histogram."}),
       key("map.x_range", two_numbers({}, "[from, to]"), &MapSettings::x_range,
           {"Of its first field.", "the field's", "all"}),
       key("map.y_range", two_numbers({}, "[from, to]"), &MapSettings::y_range,
@@ -218,8 +215,9 @@ Keys view_keys() {
                            {"camera", MapView::camera},
                            {"sky", MapView::sky}}),
           &MapSettings::view,
-          {"The axes to the right and upwards; `camera`: as the scene's camera looks; `sky`: all "
-           "around, from the centre."}),
+          {"The axes to the right and upwards; `camera`: as the scene's camera looks; `sky`: from "
+           "the "
+           "centre."}),
       lengths_key<Vec3>("center", vector(), "25,25,25Mpc", &MapSettings::center,
                         {"The middle of the map.", "length", "what `center_at` says"}),
       key("map.center_at",
@@ -230,8 +228,8 @@ Keys view_keys() {
           {"Without a `center`: the middle of the box or of the particles, the centre of mass, or "
            "the densest particle. With the view `camera`, `box` is its look-at point."}),
       length_key("width", &MapSettings::width,
-                 {"Between the left and right edges; of the view `sky` in degrees.", "length",
-                  "all of the box, or of the particles; of the sky 360"}),
+                 {"Between the left and right edges; of a sky in degrees.", "length",
+                  "all of the box, or of the particles"}),
       length_key(
           "depth", &MapSettings::depth,
           {"Only particles whose centres lie within half of it from the centre along the line of "
