@@ -91,7 +91,7 @@ class SkySpread {
         patch.width * patch.height *
         grid_.density(patch.face, patch.x + 0.5 * patch.width, patch.y + 0.5 * patch.height);
     const double side = stretch * std::sqrt(area) / particle_.width();
-    const double nearest = std::max(0.0, out - 0.7 * side);
+    const double nearest = std::max(0.0, out - grid_.radius(patch) / particle_.width());
     const double left = std::exp(-std::min(nearest * nearest, 700.0));
     const double allowed = accuracy_.tolerance * std::max(1.0, accuracy_.floor / left);
     constexpr double least_slope = 2.5;  // of a Gaussian's derivatives in its middle

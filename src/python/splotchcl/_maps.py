@@ -270,7 +270,9 @@ def column(
         {key: _converted(key, lengths[key], what.scene, what.source) for key in with_units}
     )
     for key in ("map.width", "map.center", "map.depth"):
-        if key in written:
+        if key in written and isinstance(lengths[key], str):
+            what.scene[key] = lengths[key]
+        elif key in written:
             what.scene[key] = _read_lengths(key, lengths[key], what.scene, what.source)
             unit_of_axes = what.scene["map.axis_unit"] or _written_unit(lengths[key])
             if unit_of_axes:
@@ -320,15 +322,15 @@ def _is_written(length: Any) -> bool:
     )
 
 
-def _read_lengths(key: str, length: Any, scene: Scene, source: Source) -> float | list[float]:
+def _read_lengths(key: str, length: Any, scene: Scene, source: Source) -> list[float]:
     def read(one: Any) -> float:
         return float(_core.read_map_length(str(one), scene._scene, source._source, f"key {key}"))
 
-    return read(length) if isinstance(length, str) else [read(one) for one in length]
+    return [read(one) for one in length]
 
 
 def _written_unit(length: Any) -> str:
-    texts = [length] if isinstance(length, str) else [x for x in length if isinstance(x, str)]
+    texts = [x for x in length if isinstance(x, str)]
     return texts[-1].strip().lstrip("+-.0123456789eE").strip()
 
 
