@@ -186,7 +186,7 @@ def test_a_small_particle_is_in_the_pixel_of_its_direction(order):
     pixels = healpy.vec2pix(64, *arrays["position"].astype(float).T, nest=order == "nested")
     counts = np.bincount(pixels, minlength=12 * 64**2)
     # Few lie so near to an edge that both pixels have some.
-    assert (np.abs(found - counts) > 1e-6).sum() < 20
+    assert (np.abs(found - counts) > 1e-6).sum() < 60
     assert found.sum(dtype=float) == pytest.approx(5000, rel=1e-6)
 
 
