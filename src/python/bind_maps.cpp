@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "map/shape.h"
 #include "python/bindings.h"
 #include "python/progress.h"
 #include "python/source.h"
@@ -106,8 +107,11 @@ py::tuple draw_map_object(const Scene& scene, const Source& source, const std::s
     source.refresh();
     notes = source.snapshot().info().notes;
     std::optional<Renderer> renderer;
-    return draw_map(scene, source.snapshot(), drawing(device, by_reference, progress, renderer),
-                    notes, progress.function());
+    // Sums in cells need no device.
+    const bool is_drawn = !is_made_of_cells(shape_of(scene.map));
+    const DrawFrame draw =
+        is_drawn ? drawing(device, by_reference, progress, renderer) : DrawFrame();
+    return draw_map(scene, source.snapshot(), draw, notes, progress.function());
   }));
   return py::make_tuple(std::move(map), std::move(notes));
 }
