@@ -274,9 +274,8 @@ def column(
             what.scene[key] = lengths[key]
         elif key in written:
             what.scene[key] = _read_lengths(key, lengths[key], what.scene, what.source)
-            unit_of_axes = what.scene["map.axis_unit"] or _written_unit(lengths[key])
-            if unit_of_axes:
-                what.scene["map.axis_unit"] = unit_of_axes
+            if not what.scene["map.axis_unit"] and "map.width" not in written:
+                what.scene["map.axis_unit"] = _written_unit(lengths[key])
     by_reference = device == "reference"
     name = "" if device is None or by_reference else device
     with nullcontext() if by_reference else using_opencl():
