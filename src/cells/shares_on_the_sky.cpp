@@ -32,6 +32,11 @@ constexpr std::array<Rule, 3> rules = {{
 // Of cells that are no squares in the sky, the longer side over their mean side.
 constexpr double stretch = 1.2;
 
+struct SeenPatch {
+  SkyPatch patch;
+  Vec3 direction;  // to its middle
+};
+
 // How far out, as GaussianOnSky::square() has it, there is more than a hair of what may be wrong.
 double squares_that_count(const SkyAccuracy& accuracy) {
   constexpr double hair = 1e-3;
@@ -49,25 +54,28 @@ class SkySpread {
         shares_(shares) {}
 
   // Down to whole cells.
-  void find_cells(const SkyPatch& patch, std::vector<SkyPatch>& cells) const {
-    if (is_out_of_reach(patch, middle_of(patch))) return;
+  void find_cells(const SkyPatch& patch, std::vector<SeenPatch>& cells) const {
+    const Vec3 direction = middle_of(patch);
+    if (is_out_of_reach(patch, direction)) return;
     if (patch.width <= 1 && patch.height <= 1) {
-      cells.push_back(patch);
+      cells.push_back({patch, direction});
       return;
     }
     for (const SkyPatch& part : parts_of(patch, false))
       find_cells(part, cells);
   }
 
-  void visit(const SkyPatch& patch) {
-    const Vec3 direction = middle_of(patch);
-    if (is_out_of_reach(patch, direction)) return;
+  // One in reach.
+  void visit(const SeenPatch& seen) {
+    const auto& [patch, direction] = seen;
     if (const Rule* const rule = rule_for(patch, direction)) {
       add(patch, *rule);
       return;
     }
-    for (const SkyPatch& part : parts_of(patch, true))
-      visit(part);
+    for (const SkyPatch& part : parts_of(patch, true)) {
+      const Vec3 middle = middle_of(part);
+      if (!is_out_of_reach(part, middle)) visit({part, middle});
+    }
   }
 
  private:
@@ -96,8 +104,10 @@ class SkySpread {
     const double allowed = accuracy_.tolerance * std::max(1.0, accuracy_.floor / left);
     constexpr double least_slope = 2.5;  // of a Gaussian's derivatives in its middle
     const double slope = std::max(least_slope, 2 * out) * side;
-    for (const Rule& rule : rules) {
-      if (std::pow(slope, 2 * rule.count) < allowed * rule.divisor) return &rule;
+    const double square = slope * slope, fourth = square * square;
+    const std::array<double, rules.size()> errors = {square, fourth, fourth * fourth};
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+      if (errors[i] < allowed * rules[i].divisor) return &rules[i];
     }
     return nullptr;
   }
@@ -190,16 +200,16 @@ void add_shares_on_the_sky(const SkyGrid& grid, const GaussianOnSky& particle,
   }
   const std::size_t first = shares.size();
   SkySpread spread(grid, particle, accuracy, shares);
-  std::vector<SkyPatch> cells;
+  std::vector<SeenPatch> cells;
   for (const SkyPatch& face : grid.faces())
     spread.find_cells(face, cells);
   const bool has_all = grid.has_all_of_the_sky();
   if (has_all && cells.size() == 1) {
-    const SkyPatch& only = cells.front();
+    const SkyPatch& only = cells.front().patch;
     shares.push_back({grid.cell(only.face, static_cast<int>(only.x), static_cast<int>(only.y)), 1});
     return;
   }
-  for (const SkyPatch& cell : cells)
+  for (const SeenPatch& cell : cells)
     spread.visit(cell);
   if (has_all) bring_to_one(first, shares);
 }
