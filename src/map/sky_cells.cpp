@@ -12,6 +12,7 @@
 #include "map/cell_map.h"
 #include "map/cell_sums.h"
 #include "scene/constants.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
@@ -25,6 +26,10 @@ constexpr double widest_plane = 120;
 SkyPlace place_on_sky(const MapSettings& settings, int width) {
   const double degrees = settings.width.value_or(360);
   const double radian = 180 / pi;
+  if (degrees > 360) {
+    throw UsageError(
+        fmt::format("key map.width: found {} degrees of the sky, expected at most 360", degrees));
+  }
   SkyPlace sky = {settings.sky[0], settings.sky[1], degrees / width, "CAR"};
   if (degrees > widest_plane) return sky;
   sky.projection = "TAN";

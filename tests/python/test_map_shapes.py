@@ -366,6 +366,7 @@ def test_shapes_have_figures(tmp_path, what, ending):
     ({"histogram": ("x", "nothing")}, "nothing"),
     ({"width": "2deg"}, "an angle"),
     ({"view": "sky", "width": "2Mpc"}, "expected an angle"),
+    ({"view": "sky", "width": 400.0}, "at most 360"),
 ])  # fmt: skip
 def test_wrong_shapes_are_refused(wrong, words):
     with pytest.raises(UsageError, match=words):
