@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -218,12 +219,22 @@ MapGeometry geometry_of(const Scene& scene, MapShape shape, const MapMatter& mat
   return geometry;
 }
 
+double farthest_from(const Vec3& center, const MapMatter& matter) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < matter.count; ++i) {
+    if (matter.is_good(i))
+      farthest = std::max(farthest, boost::qvm::mag(Vec3(matter.position_of(i) - center)));
+  }
+  return farthest;
+}
+
 // What coordinates are told in follows from it, in the snapshot's lengths.
-double extent_of(const MapGeometry& geometry, const MapSettings& settings) {
+double extent_of(const MapPlan& plan, const MapSettings& settings) {
+  const MapGeometry& geometry = plan.geometry;
   if (settings.shell) return (*settings.shell)[1];
   if (settings.voxels[0] > 0) return geometry.pixel * settings.voxels[0];
-  if (geometry.box && geometry.is_around_center) return (*geometry.box)[0];
-  return geometry.width * geometry.pixel;
+  if (!geometry.is_around_center) return geometry.width * geometry.pixel;
+  return geometry.box ? (*geometry.box)[0] : farthest_from(geometry.center, plan.matter);
 }
 
 Map described(const MapPlan& plan, const Scene& scene, MapShape shape) {
@@ -352,7 +363,7 @@ Map draw_map(const Scene& written, const Snapshot& snapshot, const DrawFrame& dr
       read_quantity(settings, plan.geometry, fields, plan.types.front(), plan.matter.count);
   refuse_all_bad(plan.matter, plan.quantity, fields);
   plan.units = decide_units(settings, plan.snapshot, plan.types, plan.quantity.kind,
-                            extent_of(plan.geometry, settings));
+                            extent_of(plan, settings));
   Map map = described(plan, one, shape);
   if (is_made_of_cells(shape)) {
     take_cells(draw_cells(plan, one, shape, fields, progress), plan.units, map, notes);

@@ -173,6 +173,17 @@ def test_pixels_of_a_sphere_have_what_is_seen_of_kernels(seed):
     assert worst(found.values, on_sphere(arrays, 4)) < 1e-3
 
 
+def test_a_sphere_has_weighted_means_of_fields_of_both_signs():
+    arrays = matter(4, count=12, least=0.8, most=8.0)
+    arrays["position"] += np.sign(arrays["position"]) * np.float32(0.3)
+    weight, top, size = (
+        on_sphere(arrays | {"mass": arrays["mass"] * factor}, 4)
+        for factor in (np.float32(1), arrays["charge"], np.abs(arrays["charge"]))
+    )
+    found = drawn(arrays, "charge", healpix=4).values
+    assert worst(found * weight, top, size=size) < 3e-3
+
+
 def test_the_origin_may_lie_within_a_kernel():
     arrays = matter(8, count=3, least=3.0, most=9.0, half=0.5)
     assert worst(drawn(arrays, healpix=4).values, on_sphere(arrays, 4)) < 1e-3
@@ -373,7 +384,13 @@ def test_wrong_shapes_are_refused(wrong, words):
         drawn(matter(1), **wrong)
 
 
+def test_a_profile_is_told_in_the_unit_that_its_radii_have():
+    found = drawn(matter(1), profile=4, settings={"map.length_unit": "Mpc"})
+    assert found.axis_units == ("Mpc",)
+
+
 def test_voxels_are_no_picture(tmp_path):
+    assert drawn(matter(1), voxels=4)._repr_png_() is None
     with pytest.raises(UsageError, match="planes of map.voxels"):
         drawn(matter(1), voxels=4).save(tmp_path / "cube.png")
 

@@ -111,7 +111,10 @@ class Map:
         right, up = self._map.center_right, self._map.center_up
         return right - half[0], right + half[0], up - half[1], up + half[1]
 
-    def _repr_png_(self) -> bytes:
+    # A cube has no figure.
+    def _repr_png_(self) -> bytes | None:
+        if self._map.shape in ("velocities", "voxels"):
+            return None
         with tempfile.TemporaryDirectory() as folder:
             figure = Path(folder, "map.png")
             self._map.save(figure, self.scene._scene, self._source._source)
