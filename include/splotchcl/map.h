@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -19,6 +20,26 @@ namespace splotchcl {
 struct SkyPlace {
   double right_ascension = 0, declination = 0;
   double pixel = 0;
+  std::string projection = "TAN";  // as the FITS standard calls it
+};
+
+// What a map's cells are: squares in a plane, these in channels of velocity, pixels of a sphere
+// by their numbers or as a picture of the sky, cubes, shells, or bins of two fields.
+enum class MapShape { plane, velocities, healpix, sky, voxels, profile, histogram };
+
+// Of voxels, of a profile or of a histogram: cells of equal width, or of equal ratio.
+struct MapAxis {
+  std::string name, unit;
+  int cells = 0;
+  double first = 0, last = 0;  // edges
+  bool is_logarithmic = false;
+
+  double edge(int i) const;
+};
+
+struct HealpixPixels {
+  int nside = 0;
+  HealpixOrder order = HealpixOrder::ring;
 };
 
 // The channels of a cube, which have the same width.
@@ -28,10 +49,15 @@ struct VelocityAxis {
   std::string unit;            // "km/s"; "code_velocity" where unknown
 };
 
-// Values of width x height pixels, row 0 at the top; of a cube those of each channel in turn.
+// Values of width x height pixels, row 0 at the top; of a cube those of each channel, or of each z,
+// in turn. Of a sphere or a profile there is one row.
 struct Map {
+  MapShape shape = MapShape::plane;
   int width = 0, height = 0;             // pixels
-  std::optional<VelocityAxis> velocity;  // of a cube
+  std::optional<HealpixPixels> healpix;  // of a sphere
+  std::vector<MapAxis> axes;  // of voxels, a profile or a histogram, the first to the right
+  std::optional<std::array<double, 2>> shell;  // between which distances from the center it shows
+  std::optional<VelocityAxis> velocity;        // of a cube
   // Not a number where a mean has too little matter to be known.
   std::vector<float> values;
   std::vector<float> effective_particles;  // empty unless it was asked for
@@ -55,6 +81,8 @@ struct Map {
   // for means, which are not numbers there.
   double value_floor = 0;
   std::uint64_t particles = 0, images = 0, bad_particles = 0;
+
+  int planes() const;  // of a cube; else 1
 };
 
 // A length as it is written, such as "4Mpc" or "4 Mpc", in the unit that the map's settings have

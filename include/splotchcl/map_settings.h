@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +17,12 @@ namespace splotchcl {
 enum class MapStatistic { mean, dispersion, integral };
 
 // From where a map is seen. The first letter's axis points to the right, the second's upwards.
-enum class MapView { xy, xz, yz, camera };
+//   camera  along the scene's camera, in parallel
+//   sky     from the center, in all directions
+enum class MapView { xy, xz, yz, camera, sky };
+
+// How the pixels of a sphere are counted (Gorski et al. 2005, ApJ 622, 759).
+enum class HealpixOrder { ring, nested };
 
 // Where the middle of a map lies.
 enum class MapCenter { box, mass, densest };
@@ -45,10 +51,26 @@ struct MapSettings {
   // > 0: lines are as wide as the thermal motion of particles of so many proton masses makes them.
   double line_mass = 0;
 
+  // Cells other than the pixels of a plane: one of these at most.
+  int healpix = 0;                        // pixels of a sphere: 12 NSIDE^2; 0: none
+  std::array<int, 3> voxels = {0, 0, 0};  // along x, y and z; 0: none
+  int profile = 0;                        // shells around the center; 0: none
+  std::vector<std::string> histogram;     // two fields; empty: none
+
+  HealpixOrder healpix_order = HealpixOrder::ring;
+  // Radii of what counts in maps of spheres, and from the first to the last shell of a profile.
+  std::optional<std::array<double, 2>> shell;
+  bool tile = false;  // maps of spheres have every periodic image, not the nearest one alone
+  std::array<int, 2> bins = {256, 256};                   // of a histogram
+  std::optional<std::array<double, 2>> x_range, y_range;  // of its fields; unset: all there is
+
   MapView view = MapView::xy;
   std::optional<Vec3> center;
   MapCenter center_at = MapCenter::box;  // where there is no center
   std::optional<double> width, depth;    // unset: all of the box, or of the particles
+  // "width", "depth", "center" or "shell" as it is written where it has a unit of its own. It
+  // counts before the number.
+  std::map<std::string, std::string> lengths_with_units;
   std::string axis_unit;         // of coordinates, such as "Mpc"; empty: what fits the width
   std::optional<bool> periodic;  // unset: where the particles lie in the snapshot's box
   // Smoothing lengths are multiplied by it, > 0. The components' size factors are for pictures.

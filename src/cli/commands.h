@@ -71,10 +71,11 @@ struct MapOptions : DrawOptions {
   std::string quantity, statistic, weight, view, unit, distance, sky,
       contours;  // empty: not given
   std::string velocity_range;
-  std::optional<int> channels;
+  std::string order, shell, voxels, histogram, bins, x_range, y_range;
+  std::optional<int> channels, healpix, profile;
   std::optional<double> line_mass;
   std::string depth;  // a length, which may have a unit
-  bool slice = false, noise = false;
+  bool slice = false, noise = false, tile = false;
 };
 int run_map(const MapOptions& options, Console& console);
 

@@ -11,6 +11,7 @@
 #include "common/output_files.h"
 #include "common/quiet_errors.h"
 #include "map/named_place.h"
+#include "map/shape.h"
 #include "open_scene/input_files.h"
 #include "select/selection.h"
 #include "snapshot/field_names.h"
@@ -59,11 +60,46 @@ void add_velocity_options(CLI::App& sub, MapOptions& options) {
       ->type_name("M");
 }
 
+void add_sphere_options(CLI::App& sub, MapOptions& options) {
+  sub.add_option("--healpix", options.healpix,
+                 wrapped("A Healpix map of the sphere around --center, with this NSIDE"))
+      ->type_name("NSIDE");
+  sub.add_option("--order", options.order, wrapped("Of its pixels: ring (the default) or nested"))
+      ->type_name("NAME");
+  sub.add_option("--shell", options.shell,
+                 wrapped("Between these distances from the centre: 10,20Mpc. Of a profile the "
+                         "innermost and outermost radius"))
+      ->type_name("RMIN,RMAX");
+  sub.add_flag("--tile", options.tile,
+               wrapped("Fill the shell with periodic images of the box; default: each particle "
+                       "once, where it is nearest"));
+}
+
+void add_cell_options(CLI::App& sub, MapOptions& options) {
+  sub.add_option("--voxels", options.voxels,
+                 wrapped("A cube of voxels, --width along x: .fits, .hdf5 or .npy"))
+      ->type_name("N|NX,NY,NZ");
+  sub.add_option("--profile", options.profile,
+                 wrapped("A radial profile around --center in so many shells; also as .csv and "
+                         ".ecsv"))
+      ->type_name("N");
+  sub.add_option("--histogram", options.histogram,
+                 wrapped("A histogram of two fields, such as density,temperature"))
+      ->type_name("FIELD,FIELD");
+  sub.add_option("--bins", options.bins, wrapped("Of the histogram; default: 256"))
+      ->type_name("N|X,Y");
+  sub.add_option("--x-range", options.x_range, wrapped("Of its first field; default: all values"))
+      ->type_name("V,V");
+  sub.add_option("--y-range", options.y_range, wrapped("Of its second field, likewise"))
+      ->type_name("V,V");
+}
+
 void add_view_options(CLI::App& sub, MapOptions& options) {
   sub.add_option(
          "--view", options.view,
          wrapped(
-             "xy (the default), xz or yz: the axes to the right and up; camera: the scene's view"))
+             "xy (the default), xz or yz: the axes to the right and up; camera: the scene's view; "
+             "sky: all around, from --center, --width in degrees"))
       ->type_name("NAME");
   sub.add_option("--distance", options.distance,
                  wrapped("Distance of the observer, such as '16.5 Mpc', or redshift: adds "
@@ -97,6 +133,8 @@ void add_map(CLI::App& app, Run& run, Console& console) {
       ->allow_extra_args(false);
   add_quantity_options(*sub, *options);
   add_velocity_options(*sub, *options);
+  add_sphere_options(*sub, *options);
+  add_cell_options(*sub, *options);
   add_view_options(*sub, *options);
   sub->add_option("--tolerance", options->tolerance,
                   wrapped("Largest error of each sum, relative to it, or to map.floor if it is "
@@ -107,7 +145,10 @@ void add_map(CLI::App& app, Run& run, Console& console) {
       "Examples:\n"
       "  splotchcl map snapshot_006 -o density.png\n"
       "  splotchcl map snapshot_006 --quantity temperature --view xy --unit K -o t.fits -o t.png\n"
-      "  splotchcl map snapshot_006 --quantity temperature --slice --center densest -o slice.npy");
+      "  splotchcl map snapshot_006 --quantity temperature --slice --center densest -o slice.npy\n"
+      "  splotchcl map snapshot_006 --healpix 256 --shell 5000,20000 -o sky.fits\n"
+      "  splotchcl map snapshot_006 --voxels 128 -o cube.h5\n"
+      "  splotchcl map snapshot_006 --histogram density,temperature -o phases.png");
 }
 
 namespace {
@@ -148,6 +189,60 @@ bool has_unit(const std::string& lengths) {
   return !unit_of_lengths(lengths).empty();
 }
 
+// Lengths with a unit are texts.
+void add_lengths(const char* key, const std::string& lengths, const char* before, const char* after,
+                 std::vector<std::string>& settings) {
+  if (lengths.empty()) return;
+  settings.push_back(has_unit(lengths) ? fmt::format("map.{}='{}'", key, lengths)
+                                       : fmt::format("map.{}={}{}{}", key, before, lengths, after));
+}
+
+void add_place(const MapOptions& options, std::vector<std::string>& settings) {
+  if (options.center.find_first_of(",=") == std::string::npos) {
+    if (!options.center.empty())
+      settings.push_back(fmt::format("map.center_at='{}'", options.center));
+  } else if (!is_named(options.center)) {
+    add_lengths("center", options.center, "[", "]", settings);
+  }
+  add_lengths("width", options.width, "", "", settings);
+  add_lengths("depth", options.depth, "", "", settings);
+  add_lengths("shell", options.shell, "[", "]", settings);
+}
+
+// "density,temperature" as TOML; of formulas with commas the scene's key takes a list.
+std::string list_of_words(const std::string& text) {
+  std::istringstream words(text);
+  std::string list;
+  for (std::string word; std::getline(words, word, ',');)
+    list += (list.empty() ? "'" : ", '") + word + "'";
+  return "[" + list + "]";
+}
+
+std::string one_or_list(const std::string& numbers) {
+  return numbers.find(',') == std::string::npos ? numbers : "[" + numbers + "]";
+}
+
+void add_shape(const MapOptions& options, std::vector<std::string>& settings) {
+  const auto add = [&settings](const char* key, const std::string& value) {
+    if (!value.empty()) settings.push_back(fmt::format("map.{}={}", key, value));
+  };
+  const auto add_range = [&add](const char* key, const std::string& range) {
+    if (!range.empty()) add(key, "[" + range + "]");
+  };
+  if (options.channels) add("channels", std::to_string(*options.channels));
+  if (options.line_mass) add("line_mass", fmt::format("{}", *options.line_mass));
+  add_range("velocity_range", options.velocity_range);
+  if (options.healpix) add("healpix", std::to_string(*options.healpix));
+  if (!options.order.empty()) add("healpix_order", "'" + options.order + "'");
+  if (options.tile) add("tile", "true");
+  add("voxels", one_or_list(options.voxels));
+  if (options.profile) add("profile", std::to_string(*options.profile));
+  if (!options.histogram.empty()) add("histogram", list_of_words(options.histogram));
+  add("bins", one_or_list(options.bins));
+  add_range("x_range", options.x_range);
+  add_range("y_range", options.y_range);
+}
+
 // The options as settings of the scene, after those that the user gives.
 std::vector<std::string> settings_of_map(const MapOptions& options) {
   std::vector<std::string> settings = common_settings_of(options);
@@ -160,24 +255,11 @@ std::vector<std::string> settings_of_map(const MapOptions& options) {
   add("weight", options.weight);
   add("view", options.view);
   add("unit", options.unit);
-  if (options.center.find_first_of(",=") == std::string::npos) {
-    add("center_at", options.center);
-  } else if (!is_named(options.center) && !has_unit(options.center)) {
-    settings.push_back("map.center=[" + options.center + "]");
-  }
+  add_place(options, settings);
+  add_shape(options, settings);
   add("distance", options.distance);
   if (!options.sky.empty()) settings.push_back("map.sky=[" + options.sky + "]");
   if (!options.contours.empty()) settings.push_back(contour_setting(options.contours));
-  const auto add_length = [&settings](const char* key, const std::string& length) {
-    if (!length.empty() && !has_unit(length))
-      settings.push_back(fmt::format("map.{}={}", key, length));
-  };
-  add_length("width", options.width);
-  add_length("depth", options.depth);
-  if (options.channels) settings.push_back(fmt::format("map.channels={}", *options.channels));
-  if (options.line_mass) settings.push_back(fmt::format("map.line_mass={}", *options.line_mass));
-  if (!options.velocity_range.empty())
-    settings.push_back("map.velocity_range=[" + options.velocity_range + "]");
   if (options.slice) settings.emplace_back("map.slice=true");
   if (options.noise) settings.emplace_back("map.noise=true");
   if (!options.types.empty()) {
@@ -204,27 +286,6 @@ void add_selection(const std::vector<std::string>& conditions, Scene& scene) {
                                  conditions.end());
 }
 
-double length_of(const std::string& text, const char* option, const SceneWithSnapshot& source) {
-  const std::string what = fmt::format("option {}", option);
-  const double length = read_map_length(text, source.scene, *source.snapshot, what);
-  if (length > 0) return length;
-  throw UsageError(fmt::format("{}: found \"{}\", expected a length above 0", what, text));
-}
-
-// What has a unit, in the snapshot's lengths; coordinates are told in the unit that was used.
-void use_lengths(const MapOptions& options, SceneWithSnapshot& source) {
-  MapSettings& map = source.scene.map;
-  const bool has_place = !is_named(options.center) && has_unit(options.center);
-  if (has_unit(options.width)) map.width = length_of(options.width, "--width", source);
-  if (has_unit(options.depth)) map.depth = length_of(options.depth, "--depth", source);
-  if (has_place)
-    map.center = read_place(options.center, source.scene, *source.snapshot, "option --center");
-  const std::string& used = has_unit(options.width) ? options.width
-                            : has_place             ? options.center
-                                                    : options.depth;
-  if (map.axis_unit.empty()) map.axis_unit = unit_of_lengths(used);
-}
-
 // The map's own words are its settings.
 void find_halo(const MapOptions& options, SceneWithSnapshot& source) {
   const bool is_halo = is_named(options.center) && options.center.find('=') != std::string::npos;
@@ -245,7 +306,11 @@ void name_by_types(const MapOptions& options, SceneWithSnapshot& source) {
   scene.components.front().name = fmt::format("{}", fmt::join(names, " and "));
 }
 
-DrawFrame drawing(const MapOptions& options, std::optional<Renderer>& renderer) {
+// Sums in cells need no device.
+DrawFrame drawing(const MapOptions& options, const Scene& scene, Console& console,
+                  std::optional<Renderer>& renderer) {
+  if (is_made_of_cells(shape_of(scene.map))) return {};
+  console.status("starting the device");
   if (options.reference) {
     return [](const Frame& frame) { return reference::render(frame).to_float(); };
   }
@@ -270,6 +335,24 @@ void write_outputs(const Map& map, const SceneWithSnapshot& source,
   console.note_each_once(notes);
 }
 
+std::string size_of(const Map& map) {
+  switch (map.shape) {
+    case MapShape::healpix:
+      return fmt::format("{} pixels", map.width);
+    case MapShape::voxels:
+      return fmt::format("{}x{}x{} voxels", map.width, map.height, map.planes());
+    case MapShape::profile:
+      return fmt::format("{} shells", map.width);
+    case MapShape::histogram:
+      return fmt::format("{}x{} bins", map.width, map.height);
+    case MapShape::plane:
+    case MapShape::velocities:
+    case MapShape::sky:
+      break;
+  }
+  return fmt::format("{}x{} pixels", map.width, map.height);
+}
+
 }  // namespace
 
 int run_map(const MapOptions& options, Console& console) {
@@ -284,7 +367,6 @@ int run_map(const MapOptions& options, Console& console) {
   const std::string not_drawn = tell_not_drawn(source.scene, *source.snapshot);
   add_selection(options.where, source.scene);
   name_by_types(options, source);
-  use_lengths(options, source);
   find_halo(options, source);
   std::vector<OutputFile> outputs;
   for (const std::filesystem::path& output : options.outputs) {
@@ -296,9 +378,8 @@ int run_map(const MapOptions& options, Console& console) {
   for (const std::string& note : source.notes) {
     if (note != not_drawn) console.note(note);
   }
-  console.status("starting the device");
   std::optional<Renderer> renderer;
-  const DrawFrame draw = drawing(options, renderer);
+  const DrawFrame draw = drawing(options, source.scene, console, renderer);
 
   const SnapshotInfo& info = source.snapshot->info();
   console.status("mapping " + info.files.front().filename().string());
@@ -311,9 +392,8 @@ int run_map(const MapOptions& options, Console& console) {
   inputs.check_in_place();
   console.note_each_once(notes);
   write_outputs(map, source, options.outputs, console);
-  console.done(fmt::format("{}: {} in {}, {}x{} pixels, {} particles",
-                           options.outputs.front().string(), map.quantity, map.unit, map.width,
-                           map.height, map.particles));
+  console.done(fmt::format("{}: {} in {}, {}, {} particles", options.outputs.front().string(),
+                           map.quantity, map.unit, size_of(map), map.particles));
   return 0;
 }
 

@@ -1,20 +1,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "common/words.h"
 #include "load/components.h"
 #include "load/missing_sizes.h"
+#include "map/cell_map.h"
+#include "map/component_of_map.h"
 #include "map/geometry.h"
 #include "map/map_units.h"
 #include "map/placed_particles.h"
 #include "map/quantity.h"
+#include "map/shape.h"
 #include "map/sky.h"
 #include "map/sums.h"
 #include "map/weighted_values.h"
+#include "map/written_lengths.h"
 #include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"
 #include "splotchcl/error.h"
@@ -22,21 +26,6 @@
 
 namespace splotchcl {
 namespace {
-
-const Component& choose_component(const Scene& scene) {
-  if (scene.components.empty()) {
-    throw UsageError("the scene has no component, expected at least one; add a [[component]]");
-  }
-  if (scene.map.component.empty()) return scene.components.front();
-  std::vector<std::string> names;
-  for (const Component& component : scene.components) {
-    if (component.name == scene.map.component) return component;
-    names.push_back(component.name);
-  }
-  throw UsageError("key map.component: found \"" + scene.map.component +
-                   "\", expected the name of a component" +
-                   did_you_mean(nearest_name(scene.map.component, names)));
-}
 
 // A map's numbers would be of a part of what is there.
 void refuse_rim(const Component& component) {
@@ -46,20 +35,10 @@ void refuse_rim(const Component& component) {
       "a sphere without a rim");
 }
 
-// The scene with the map's component alone.
 Scene scene_of_map(const Scene& scene) {
-  Scene one = scene;
-  one.components = {choose_component(scene)};
-  refuse_rim(one.components.front());
-  // What colors its particles in pictures need not be there.
-  Component& component = one.components.front();
-  component.color = {};
-  component.intensity = {};
-  component.color_vector.clear();
-  // It is no picture: what is drawn over pictures is not looked at here.
-  one.finish = {};
-  one.sort = {};
-  return one;
+  const Component& component = component_of_map(scene);
+  refuse_rim(component);
+  return scene_of_numbers(scene, component);
 }
 
 bool has_densities(const Component& component, const SnapshotInfo& info) {
@@ -134,6 +113,8 @@ const char* name_of(MapView view) {
       return "xz";
     case MapView::yz:
       return "yz";
+    case MapView::sky:
+      return "sky";
     case MapView::camera:
       break;
   }
@@ -198,76 +179,198 @@ VelocityAxis axis_of(const VelocityChannels& channels, const std::pair<std::stri
 
 double read_map_length(const std::string& text, const Scene& scene, const Snapshot& snapshot,
                        const std::string& what) {
-  const std::vector<int> types = present_types(choose_component(scene), snapshot.info());
+  const std::vector<int> types = present_types(component_of_map(scene), snapshot.info());
   if (types.empty()) throw UsageError(what + ": the map's component has no particles");
   return length_in_snapshot(text, scene.map, snapshot.info(), types.front(), what);
 }
 
-Map draw_map(const Scene& scene, const Snapshot& snapshot, const DrawFrame& draw,
-             std::vector<std::string>& notes, const LoadProgress& progress) {
-  const MapSettings& settings = scene.map;
-  check_quantity(settings);
-  const Scene one = scene_of_map(scene);
-  const Component& component = one.components.front();
-  const PeriodicRegion region = find_region(one, component, snapshot, notes);
-  OpenComponents open(one, snapshot, missing_sizes(one, progress), notes, region.box);
-  ComponentFields& fields = open.fields().front();
-  fields.select();
-  const MapMatter matter = read_matter(component, settings, fields);
-  const MapGeometry geometry = decide_geometry(one, matter, region);
-  const std::vector<int> types = present_types(component, fields.snapshot_info());
-  const MapQuantity quantity =
-      read_quantity(settings, geometry, fields, types.front(), matter.count);
-  refuse_all_bad(matter, quantity, fields);
-  const MapUnits units = decide_units(settings, fields.snapshot_info(),
-                                      present_types(component, fields.snapshot_info()),
-                                      quantity.kind, geometry.width * geometry.pixel);
+namespace {
 
-  const PlacedParticles placed =
-      place_particles(matter, geometry, one.kernel.width, settings.slice);
-  WeightedValues weighted(placed, quantity, settings.floor, geometry, one.kernel.width,
-                          fields.particles_per_drawn());
-  const SumPicture picture = {geometry.width, geometry.height, one.kernel.width, one.tolerance};
+// What is read before anything is drawn.
+struct MapPlan {
+  const Component& component;
+  const SnapshotInfo& snapshot;
+  std::vector<int> types;  // those that are there
+  MapMatter matter;
+  MapGeometry geometry;
+  MapQuantity quantity;
+  MapUnits units;
+};
 
+// Of what has no pixels in a plane only the center counts, of voxels also how large they are.
+Scene scene_of_geometry(const Scene& scene, MapShape shape) {
+  if (!is_made_of_cells(shape)) return scene;
+  Scene plain = scene;
+  plain.map.view = MapView::xy;
+  if (shape == MapShape::voxels) {
+    plain.image.width = scene.map.voxels[0];
+    plain.image.height = scene.map.voxels[1];
+  } else {
+    plain.map.width = 1;
+  }
+  if (shape == MapShape::histogram) plain.map.center = Vec3{{0, 0, 0}};
+  return plain;
+}
+
+MapGeometry geometry_of(const Scene& scene, MapShape shape, const MapMatter& matter,
+                        const PeriodicRegion& region) {
+  MapGeometry geometry = decide_geometry(scene_of_geometry(scene, shape), matter, region);
+  geometry.is_around_center = is_around_the_center(shape);
+  return geometry;
+}
+
+double farthest_from(const Vec3& center, const MapMatter& matter) {
+  double farthest = 0;
+  for (std::size_t i = 0; i < matter.count; ++i) {
+    if (matter.is_good(i))
+      farthest = std::max(farthest, boost::qvm::mag(Vec3(matter.position_of(i) - center)));
+  }
+  return farthest;
+}
+
+// What coordinates are told in follows from it, in the snapshot's lengths.
+double extent_of(const MapPlan& plan, const MapSettings& settings) {
+  const MapGeometry& geometry = plan.geometry;
+  if (settings.shell) return (*settings.shell)[1];
+  if (settings.voxels[0] > 0) return geometry.pixel * settings.voxels[0];
+  if (!geometry.is_around_center) return geometry.width * geometry.pixel;
+  return geometry.box ? (*geometry.box)[0] : farthest_from(geometry.center, plan.matter);
+}
+
+Map described(const MapPlan& plan, const Scene& scene, MapShape shape) {
   Map map;
+  map.shape = shape;
+  map.quantity = plan.quantity.description;
+  map.unit = plan.units.name;
+  describe_place(plan.geometry, scene.map, plan.snapshot, plan.units, map);
+  map.tolerance = scene.tolerance;
+  map.particles = plan.matter.count;
+  return map;
+}
+
+CellMap draw_cells(const MapPlan& plan, const Scene& scene, MapShape shape,
+                   const ComponentFields& fields, const LoadProgress& progress) {
+  const auto tell = [&progress](double part) {
+    if (progress) progress("adding up kernels", part);
+  };
+  const CellMatter matter = {
+      scene.map,          plan.matter,
+      plan.geometry,      plan.quantity,
+      scene.kernel.width, fields.particles_per_drawn() * plan.quantity.weight_unit,
+      scene.tolerance,    tell};
+  if (shape == MapShape::voxels) return draw_voxels(matter);
+  if (shape == MapShape::profile) return draw_profile(matter);
+  if (shape == MapShape::histogram) return draw_histogram(matter, fields, plan.types.front());
+  return draw_sky(matter, scene.image.width, scene.image.height);
+}
+
+void in_lengths_of_map(Map& map) {
+  for (MapAxis& axis : map.axes) {
+    if (!axis.unit.empty()) continue;
+    axis.unit = map.length_unit;
+    axis.first *= map.length_factor;
+    axis.last *= map.length_factor;
+  }
+  if (!map.shell) return;
+  for (double& radius : *map.shell)
+    radius *= map.length_factor;
+}
+
+void take_cells(CellMap cells, const MapUnits& units, Map& map, std::vector<std::string>& notes) {
+  map.width = cells.width;
+  map.height = cells.height;
+  map.axes = std::move(cells.axes);
+  map.healpix = cells.healpix;
+  map.shell = cells.shell;
+  if (cells.sky) map.sky = cells.sky;
+  map.values = in_unit(cells.values, units);
+  map.floor = cells.floor;
+  map.value_floor = cells.value_floor * units.factor;
+  map.images = cells.images;
+  map.bad_particles = cells.bad;
+  if (map.shape == MapShape::healpix) map.view = "sky";
+  in_lengths_of_map(map);
+  notes.insert(notes.end(), cells.notes.begin(), cells.notes.end());
+}
+
+void draw_pixels(const MapPlan& plan, const Scene& scene, const ComponentFields& fields,
+                 const DrawFrame& draw, Map& map) {
+  const MapSettings& settings = scene.map;
+  const MapGeometry& geometry = plan.geometry;
+  const PlacedParticles placed =
+      place_particles(plan.matter, geometry, scene.kernel.width, settings.slice);
+  WeightedValues weighted(placed, plan.quantity, settings.floor, geometry, scene.kernel.width,
+                          fields.particles_per_drawn());
+  const SumPicture picture = {geometry.width, geometry.height, scene.kernel.width, scene.tolerance};
   map.width = geometry.width;
   map.height = geometry.height;
-  map.quantity = quantity.description;
-  map.unit = units.name;
-  describe_place(geometry, settings, fields.snapshot_info(), units, map);
-  map.tolerance = one.tolerance;
   map.floor = weighted.floor();
-  map.particles = matter.count;
   map.images = placed.count();
   map.bad_particles = placed.bad + weighted.bad();
-  const VelocityChannels& channels = quantity.channels;
-  const std::vector<double> values = channels.count > 0
-                                         ? weighted.draw_channels(channels, picture, draw)
-                                         : weighted.draw(picture, draw);
-  if (channels.count > 0)
-    map.velocity =
-        axis_of(channels, told_velocity(settings, fields.snapshot_info(), types.front()));
-  map.values = in_unit(values, units);
-  map.value_floor = weighted.value_floor() * units.factor;
+  const VelocityChannels& channels = plan.quantity.channels;
+  const bool is_cube = channels.count > 0;
+  const std::vector<double> values =
+      is_cube ? weighted.draw_channels(channels, picture, draw) : weighted.draw(picture, draw);
+  if (is_cube)
+    map.velocity = axis_of(channels, told_velocity(settings, plan.snapshot, plan.types.front()));
+  map.values = in_unit(values, plan.units);
+  map.value_floor = weighted.value_floor() * plan.units.factor;
   if (settings.noise) {
     map.effective_particles =
         draw_effective_particles(placed, weighted, picture, settings.floor, draw);
   }
-  if (component.size_factor != 1 && settings.size_factor == 1) {
+}
+
+void note_particles(const MapPlan& plan, const MapSettings& settings, const Map& map,
+                    std::vector<std::string>& notes) {
+  if (plan.component.size_factor != 1 && settings.size_factor == 1) {
     notes.push_back(
         fmt::format("component \"{}\": size.factor {} is for pictures; the map has smoothing "
                     "lengths as they are "
                     "(map.size_factor)",
-                    component.name, component.size_factor));
+                    plan.component.name, plan.component.size_factor));
   }
   if (map.bad_particles > 0) {
     notes.push_back(std::to_string(map.bad_particles) +
                     " particles are left out of the map: their position, smoothing length, weight "
                     "or value is not finite, the length not above 0, or the weight below 0");
   }
-  if (settings.velocity_range && channels.count > 0) note_outside(channels, matter.count, notes);
-  if (matter.count > 0 && placed.count() == 0)
+  const VelocityChannels& channels = plan.quantity.channels;
+  if (settings.velocity_range && channels.count > 0)
+    note_outside(channels, plan.matter.count, notes);
+  if (plan.matter.count > 0 && map.images == 0)
     notes.push_back("no particle reaches the map, which is empty");
+}
+
+}  // namespace
+
+Map draw_map(const Scene& written, const Snapshot& snapshot, const DrawFrame& draw,
+             std::vector<std::string>& notes, const LoadProgress& progress) {
+  const Scene one = scene_of_map(with_lengths_as_numbers(written, snapshot));
+  const MapSettings& settings = one.map;
+  const MapShape shape = shape_of(settings);
+  check_quantity(settings);
+  const Component& component = one.components.front();
+  const PeriodicRegion region = find_region(one, component, snapshot, notes);
+  OpenComponents open(one, snapshot, missing_sizes(one, progress), notes, region.box);
+  ComponentFields& fields = open.fields().front();
+  fields.select();
+  MapPlan plan = {component, fields.snapshot_info(), {}, {}, {}, {}, {}};
+  plan.types = present_types(component, plan.snapshot);
+  plan.matter = read_matter(component, settings, fields);
+  plan.geometry = geometry_of(one, shape, plan.matter, region);
+  plan.quantity =
+      read_quantity(settings, plan.geometry, fields, plan.types.front(), plan.matter.count);
+  refuse_all_bad(plan.matter, plan.quantity, fields);
+  plan.units = decide_units(settings, plan.snapshot, plan.types, plan.quantity.kind,
+                            extent_of(plan, settings));
+  Map map = described(plan, one, shape);
+  if (is_made_of_cells(shape)) {
+    take_cells(draw_cells(plan, one, shape, fields, progress), plan.units, map, notes);
+  } else {
+    draw_pixels(plan, one, fields, draw, map);
+  }
+  note_particles(plan, settings, map, notes);
   return map;
 }
 

@@ -125,6 +125,10 @@ void cover(const std::vector<float>& coverage, float light, float opacity, Image
 
 }  // namespace
 
+void draw_lines(const std::vector<ContourPiece>& pieces, double width, float light, Image& image) {
+  cover(coverage_of(pieces, width, image), light, 1, image);
+}
+
 // White with a dark edge, which shows on any palette.
 void draw_contours(const std::vector<ContourPiece>& pieces, double width, Image& image) {
   cover(coverage_of(pieces, 2.5 * width, image), 0, 0.6F, image);
@@ -159,7 +163,9 @@ Scene scene_of_figure(const Map& map, const Scene& scene) {
   figure.finish.cross_fade = {};
   figure.finish.color_bar.show = true;
   figure.finish.color_bar.components.clear();
-  figure.finish.scale_bar.show = true;
+  // The sky has no lengths.
+  const bool is_in_plane = map.shape == MapShape::plane;
+  figure.finish.scale_bar.show = is_in_plane;
   if (figure.finish.scale_bar.length) *figure.finish.scale_bar.length *= map.length_factor;
   if (figure.finish.scale_bar.unit.empty()) figure.finish.scale_bar.unit = map.length_unit;
   return figure;

@@ -33,6 +33,10 @@ struct Figure {
   std::vector<std::string> notes() const;
 };
 
+// A sphere as a picture of the whole sky, so many pixels wide, by Mollweide's projection: longitude
+// 0 in the middle, growing to the left; not a number around it.
+Map picture_of_sphere(const Map& map, int width);
+
 // Throws UsageError for a palette that there is none of, or limits that cannot be.
 Figure plan_figure(const Map& map, const MapSettings& settings);
 
@@ -47,7 +51,12 @@ Image draw_figure(const Figure& figure, const Scene& scene, const SnapshotInfo& 
 std::vector<unsigned char> encode_pdf(const std::filesystem::path& path, const Figure& figure,
                                       const Scene& scene, const SnapshotInfo& snapshot);
 
-// Lines of this width in pixels upon the picture.
+// The page as a picture, as wide as the scene's.
+Image draw_figure_with_axes(const Figure& figure, const Scene& scene, const SnapshotInfo& snapshot);
+
+// Lines of this width in pixels upon the picture, of this light.
+void draw_lines(const std::vector<ContourPiece>& pieces, double width, float light, Image& image);
+// The same in white with dark edges.
 void draw_contours(const std::vector<ContourPiece>& pieces, double width, Image& image);
 
 }  // namespace splotchcl

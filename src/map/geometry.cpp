@@ -27,6 +27,7 @@ void set_axes(const Scene& scene, MapGeometry& geometry) {
   const Vec3 x = {{1, 0, 0}}, y = {{0, 1, 0}}, z = {{0, 0, 1}};
   switch (scene.map.view) {
     case MapView::xy:
+    case MapView::sky:  // by its own center and pixels
       geometry.right = x, geometry.up = y;
       break;
     case MapView::xz:
@@ -232,6 +233,34 @@ PeriodicRegion find_region(const Scene& scene, const Component& component, const
   notes.push_back(tell_box_is_not_used(*region.box, region.extent) +
                   "; set map.periodic to true if they are");
   return {};
+}
+
+std::vector<Vec3> images_within(const Vec3& offset, double reach,
+                                const std::optional<BoxSides>& box) {
+  if (!box) return {offset};
+  std::array<double, 3> first{}, last{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    first[axis] = std::ceil((-reach - offset.a[axis]) / (*box)[axis]);
+    last[axis] = std::floor((reach - offset.a[axis]) / (*box)[axis]);
+  }
+  std::vector<Vec3> images;
+  for (double x = first[0]; x <= last[0]; ++x) {
+    for (double y = first[1]; y <= last[1]; ++y) {
+      for (double z = first[2]; z <= last[2]; ++z)
+        images.push_back(offset + Vec3{{x * (*box)[0], y * (*box)[1], z * (*box)[2]}});
+    }
+  }
+  return images;
+}
+
+void check_images(double reach, const std::optional<BoxSides>& box, const std::string& what) {
+  if (!box) return;
+  const double boxes = 2 * reach / std::min({(*box)[0], (*box)[1], (*box)[2]});
+  if (boxes <= most_boxes) return;
+  throw UsageError(
+      fmt::format("{}: reaches over {:.6g} periodic boxes, expected at most {:.0f}; make it "
+                  "smaller, or set map.periodic to false",
+                  what, boxes, most_boxes));
 }
 
 MapGeometry decide_geometry(const Scene& scene, const MapMatter& matter,

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "load/periodic.h"
 #include "splotchcl/scene.h"
@@ -33,9 +35,10 @@ struct MapGeometry {
   int width = 0, height = 0;  // pixels
   double pixel = 0;           // its side, in lengths
   Vec3 center;
-  Vec3 right, up, forward;      // unit vectors
-  std::optional<double> depth;  // no limit where unset
-  std::optional<BoxSides> box;  // unset: not periodic
+  Vec3 right, up, forward;        // unit vectors
+  std::optional<double> depth;    // no limit where unset
+  std::optional<BoxSides> box;    // unset: not periodic
+  bool is_around_center = false;  // lines of sight begin there
 };
 
 // The periodic box that the map's component lies in. A box that the header alone says is believed
@@ -43,6 +46,12 @@ struct MapGeometry {
 // where there has to be one and is none.
 PeriodicRegion find_region(const Scene& scene, const Component& component, const Snapshot& snapshot,
                            std::vector<std::string>& notes);
+
+// All images of an offset that lie within `reach` of 0, and perhaps others; without a box itself.
+std::vector<Vec3> images_within(const Vec3& offset, double reach,
+                                const std::optional<BoxSides>& box);
+// Throws UsageError, which `what` begins, where too many boxes lie side by side within `reach`.
+void check_images(double reach, const std::optional<BoxSides>& box, const std::string& what);
 
 // Throws UsageError for what cannot be: a camera that is missing, a center or a width that does not
 // follow.

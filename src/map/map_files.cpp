@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "common/unfinished_file.h"
 #include "common/words.h"
 #include "formats/hdf5/hdf5_writer.h"
 #include "map/figure.h"
+#include "map/shape.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 
@@ -21,9 +24,14 @@ bool is_hdf5(const std::string& ending) {
   return ending == ".hdf5" || ending == ".h5";
 }
 
+bool is_text_table(const std::string& ending) {
+  return ending == ".csv" || ending == ".ecsv";
+}
+
 bool is_figure(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
-  return !(is_fits(ending) || is_hdf5(ending) || ending == ".npy" || ending == ".exr");
+  return !(is_text_table(ending) || is_fits(ending) || is_hdf5(ending) || ending == ".npy" ||
+           ending == ".exr");
 }
 
 constexpr const char* endings_of_maps =
@@ -46,11 +54,32 @@ void write_bytes(const std::filesystem::path& path, const std::vector<unsigned c
   file.finish();
 }
 
+// A curve is shown as a whole.
+MapSettings settings_of_figure(const Map& map, const MapSettings& settings) {
+  MapSettings figure = settings;
+  if (map.shape == MapShape::profile && !figure.percentiles) figure.percentiles = {{0, 100}};
+  return figure;
+}
+
+// Most bins are, and none of them has a color.
+Map without_empty_bins(const Map& map) {
+  Map shown = map;
+  std::replace(shown.values.begin(), shown.values.end(), 0.0F,
+               std::numeric_limits<float>::quiet_NaN());
+  return shown;
+}
+
 std::vector<std::string> write_figure(const std::filesystem::path& path, const Map& map,
                                       const Scene& scene, const SnapshotInfo& snapshot) {
-  const Figure figure = plan_figure(map, scene.map);
+  if (map.shape == MapShape::healpix && map.height == 1)
+    return write_figure(path, picture_of_sphere(map, scene.image.width), scene, snapshot);
+  const Map shown = map.shape == MapShape::histogram ? without_empty_bins(map) : map;
+  const Figure figure = plan_figure(shown, settings_of_figure(map, scene.map));
+  const bool has_axes = map.shape == MapShape::histogram || map.shape == MapShape::profile;
   if (lower_ending(path) == ".pdf") {
     write_bytes(path, encode_pdf(path, figure, scene, snapshot));
+  } else if (has_axes) {
+    write_image(path, draw_figure_with_axes(figure, scene, snapshot));
   } else {
     write_image(path, draw_figure(figure, scene, snapshot));
   }
@@ -78,19 +107,41 @@ Image numbers_as_image(const Map& map) {
   return image;
 }
 
+namespace {
+
+bool is_cube(MapShape shape) {
+  return shape == MapShape::velocities || shape == MapShape::voxels;
+}
+
+const char* cube_is_no_picture(MapShape shape) {
+  return shape == MapShape::voxels ? "holds one map, not the planes of map.voxels"
+                                   : "holds one map, not the channels of map.channels";
+}
+
+[[noreturn]] void refuse_shape(const std::filesystem::path& path, const char* why,
+                               const char* expected) {
+  throw UsageError(fmt::format("{}: {}, expected {}", path.string(), why, expected));
+}
+
+}  // namespace
+
 void check_map_output(const std::filesystem::path& path, const Scene& scene,
                       const SnapshotInfo& snapshot) {
-  if (scene.map.channels > 0 && (is_figure(path) || lower_ending(path) == ".exr")) {
-    throw UsageError(path.string() +
-                     ": holds one map, not the channels of map.channels, expected .fits, .hdf5 or "
-                     ".npy");
-  }
+  const MapShape shape = shape_of(scene.map);
+  const std::string ending = lower_ending(path);
+  if (is_text_table(ending) && shape != MapShape::profile)
+    refuse_shape(path, "holds a profile, not a map", ".fits, .hdf5 or .npy");
+  if (is_cube(shape) && (is_figure(path) || ending == ".exr"))
+    refuse_shape(path, cube_is_no_picture(shape), ".fits, .hdf5 or .npy");
+  if ((shape == MapShape::healpix || shape == MapShape::profile) && ending == ".exr")
+    refuse_shape(path, "holds a map in a plane", ".fits, .hdf5, .npy or a figure");
   if (is_figure(path)) check_figure(scene, snapshot);
 }
 
 void check_map_path(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
-  if (is_fits(ending) || is_hdf5(ending) || ending == ".npy" || ending == ".pdf") {
+  if (is_fits(ending) || is_hdf5(ending) || is_text_table(ending) || ending == ".npy" ||
+      ending == ".pdf") {
     check_output_path(path);
   } else if (ending == ".tif" || ending == ".tiff" || ending == ".hdr") {
     throw UsageError(path.string() + ": holds light, not a map; " + endings_of_maps);
@@ -113,6 +164,9 @@ std::vector<std::string> write_map(const std::filesystem::path& path, const Map&
     file.finish();
   } else if (ending == ".npy") {
     write_bytes(path, encode_npy(map));
+  } else if (is_text_table(ending)) {
+    const std::string text = profile_as_text(map, ending == ".ecsv", metadata);
+    write_bytes(path, {text.begin(), text.end()});
   } else {
     write_as_exr(path, map, metadata);
   }
@@ -132,15 +186,36 @@ std::vector<float> upside_down(const std::vector<float>& values, int width, int 
   return turned;
 }
 
+namespace {
+
+std::vector<int> npy_shape(const Map& map) {
+  if (map.shape == MapShape::healpix) return {map.width};
+  if (map.shape == MapShape::profile) return {map.width, 3};
+  std::vector<int> shape = {map.height, map.width};
+  if (!map.effective_particles.empty()) shape.insert(shape.begin(), 2);
+  if (is_cube(map.shape)) shape.insert(shape.begin(), map.planes());
+  return shape;
+}
+
+// The inner and the outer radius, and the value.
+std::vector<float> profile_rows(const Map& map) {
+  std::vector<float> rows;
+  for (int i = 0; i < map.width; ++i) {
+    rows.push_back(static_cast<float>(map.axes[0].edge(i)));
+    rows.push_back(static_cast<float>(map.axes[0].edge(i + 1)));
+    rows.push_back(map.values[static_cast<std::size_t>(i)]);
+  }
+  return rows;
+}
+
+}  // namespace
+
 // Version 1.0 of NumPy's format: the header is padded so that the values begin at a multiple of 64
 // bytes.
 std::vector<unsigned char> encode_npy(const Map& map) {
-  const std::string planes = map.velocity ? fmt::format("{}, ", map.velocity->channels)
-                             : map.effective_particles.empty() ? ""
-                                                               : "2, ";
-  std::string header =
-      fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}{}, {}), }}", planes,
-                  map.height, map.width);
+  const std::vector<int> shape = npy_shape(map);
+  std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}{}), }}",
+                                   fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
   constexpr std::size_t start = 10, alignment = 64;
   while ((start + header.size() + 1) % alignment != 0)
     header += ' ';
@@ -150,7 +225,9 @@ std::vector<unsigned char> encode_npy(const Map& map) {
   bytes += static_cast<char>(header.size() & 0xff);
   bytes += static_cast<char>(header.size() >> 8);
   bytes += header;
-  std::vector<float> values = upside_down(map.values, map.width, map.height);
+  std::vector<float> values = map.shape == MapShape::profile
+                                  ? profile_rows(map)
+                                  : upside_down(map.values, map.width, map.height);
   const std::vector<float> second = upside_down(map.effective_particles, map.width, map.height);
   values.insert(values.end(), second.begin(), second.end());
   std::vector<unsigned char> file(bytes.size() + values.size() * sizeof(float));
@@ -164,10 +241,36 @@ namespace {
 OpenDataset write_plane(const Hdf5Writer& writer, const char* name, const Map& map,
                         const std::vector<float>& values) {
   const std::vector<float> rows = upside_down(values, map.width, map.height);
-  std::vector<hsize_t> shape = {static_cast<hsize_t>(map.height), static_cast<hsize_t>(map.width)};
-  if (map.velocity) shape.insert(shape.begin(), static_cast<hsize_t>(map.velocity->channels));
+  std::vector<hsize_t> shape = {static_cast<hsize_t>(map.width)};
+  if (map.shape != MapShape::healpix && map.shape != MapShape::profile)
+    shape.insert(shape.begin(), static_cast<hsize_t>(map.height));
+  if (is_cube(map.shape)) shape.insert(shape.begin(), static_cast<hsize_t>(map.planes()));
   return writer.write_dataset(writer.file(), name, H5T_IEEE_F32LE, H5T_NATIVE_FLOAT, shape,
                               rows.data());
+}
+
+void write_extent(const Hdf5Writer& writer, hid_t values, const Map& map) {
+  const double half_width = 0.5 * map.width * map.pixel, half_height = 0.5 * map.height * map.pixel;
+  writer.write_text(values, "view", map.view);
+  writer.write_numbers<4>(values, "extent",
+                          {map.center_right - half_width, map.center_right + half_width,
+                           map.center_up - half_height, map.center_up + half_height});
+}
+
+// The edges of all cells.
+void write_axes(const Hdf5Writer& writer, const Map& map) {
+  constexpr const char* names[] = {"x_edges", "y_edges", "z_edges"};
+  for (std::size_t k = 0; k < map.axes.size(); ++k) {
+    const MapAxis& axis = map.axes[k];
+    std::vector<double> edges;
+    for (int i = 0; i <= axis.cells; ++i)
+      edges.push_back(axis.edge(i));
+    const char* const name = map.shape == MapShape::profile ? "radius_edges" : names[k];
+    const OpenDataset stored = writer.write_dataset(
+        writer.file(), name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {edges.size()}, edges.data());
+    writer.write_text(stored.id(), "name", axis.name);
+    writer.write_text(stored.id(), "unit", axis.unit);
+  }
 }
 
 }  // namespace
@@ -179,14 +282,18 @@ void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::p
   OpenDataset values = write_plane(writer, "map", map, map.values);
   writer.write_text(values.id(), "quantity", map.quantity);
   writer.write_text(values.id(), "unit", map.unit);
-  const double half_width = 0.5 * map.width * map.pixel, half_height = 0.5 * map.height * map.pixel;
-  writer.write_text(values.id(), "view", map.view);
   writer.write_text(values.id(), "length_unit", map.length_unit);
-  writer.write_numbers<4>(values.id(), "extent",
-                          {map.center_right - half_width, map.center_right + half_width,
-                           map.center_up - half_height, map.center_up + half_height});
   writer.write_numbers<3>(values.id(), "center",
                           {map.center.a[0], map.center.a[1], map.center.a[2]});
+  if (map.shape == MapShape::plane || map.shape == MapShape::velocities)
+    write_extent(writer, values.id(), map);
+  if (map.healpix) {
+    const bool is_ring = map.healpix->order == HealpixOrder::ring;
+    writer.write_text(values.id(), "ordering", is_ring ? "RING" : "NESTED");
+    writer.write_number(values.id(), "nside", map.healpix->nside);
+  }
+  if (map.shell) writer.write_numbers<2>(values.id(), "shell", *map.shell);
+  write_axes(writer, map);
   if (map.velocity) {
     writer.write_number(values.id(), "velocity_first", map.velocity->first);
     writer.write_number(values.id(), "velocity_step", map.velocity->step);
@@ -195,6 +302,7 @@ void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::p
   if (map.sky) {
     writer.write_numbers<2>(values.id(), "sky", {map.sky->right_ascension, map.sky->declination});
     writer.write_number(values.id(), "degrees_per_pixel", map.sky->pixel);
+    writer.write_text(values.id(), "projection", map.sky->projection);
   }
   writer.write_number(values.id(), "time", snapshot.time);
   if (snapshot.redshift) writer.write_number(values.id(), "redshift", *snapshot.redshift);

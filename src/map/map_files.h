@@ -20,6 +20,9 @@ std::vector<float> upside_down(const std::vector<float>& values, int width, int 
 std::vector<unsigned char> encode_fits(const std::filesystem::path& path, const Map& map,
                                        const SnapshotInfo& snapshot, const MapMetadata& metadata);
 std::vector<unsigned char> encode_npy(const Map& map);
+// A line for each shell: its inner and outer radius, and the value; with astropy's header that says
+// names, types and units, or names and units alone.
+std::string profile_as_text(const Map& map, bool with_header, const MapMetadata& metadata);
 void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::path& path,
                 const Map& map, const SnapshotInfo& snapshot, const MapMetadata& metadata);
 // Red: the map. Green: the effective number of particles, or 0.

@@ -12,6 +12,7 @@
 #include "formula/formula.h"
 #include "formula/formula_units.h"
 #include "load/derived_fields.h"
+#include "map/shape.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"
 #include "splotchcl/error.h"
@@ -168,11 +169,19 @@ class DataUnits {
   UnitFactors factors_;
 };
 
+NamedUnits unit_in_cells(MapShape shape, const DataUnits& data) {
+  if (shape == MapShape::histogram) return data.mass();
+  if (shape == MapShape::voxels || shape == MapShape::profile)
+    return DataUnits::product(data.mass(), data.length(), -3);
+  return DataUnits::product(data.mass(), {"sr", true, parse_unit("sr", {}, "unit")}, -1);
+}
+
 NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuantity::Kind kind) {
   switch (kind) {
     case MapQuantity::Kind::counts:
-      return {"particles/pixel", false, {}};
+      return {is_made_of_cells(shape_of(settings)) ? "particles" : "particles/pixel", false, {}};
     case MapQuantity::Kind::column:
+      if (is_made_of_cells(shape_of(settings))) return unit_in_cells(shape_of(settings), data);
       return DataUnits::product(data.mass(), data.length(), settings.slice ? -3 : -2);
     case MapQuantity::Kind::integral:
       return DataUnits::product(data.field(settings.quantity), data.length(), 1);
@@ -184,7 +193,7 @@ NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuanti
 }
 
 [[noreturn]] void refuse_unknown(const std::string& wanted, const NamedUnits& found) {
-  const bool is_count = found.name == "particles/pixel";
+  const bool is_count = found.name.rfind("particles", 0) == 0;
   throw UsageError(fmt::format(
       "key map.unit: found \"{}\", but the map is in {}, {}", wanted, found.name,
       is_count ? "expected no unit for counts"
@@ -304,6 +313,11 @@ double length_in_snapshot(const std::string& text, const MapSettings& settings,
   if (!length.is_known || !same_dimension(length.unit, centimeter))
     refuse_unknown_length(text, length, what);
   return given.in_cgs / length.unit.in_cgs;
+}
+
+std::string unit_of_field(const std::string& name, const MapSettings& settings,
+                          const SnapshotInfo& snapshot, int type) {
+  return DataUnits(settings, snapshot, type).field(name).name;
 }
 
 double velocity_in_cgs(const MapSettings& settings, const SnapshotInfo& snapshot, int type,

@@ -35,6 +35,9 @@ std::string name_of_density(const ParticleTypeInfo& type);
 double length_in_snapshot(const std::string& text, const MapSettings& settings,
                           const SnapshotInfo& snapshot, int type, const std::string& what);
 
+// What the unit of a field is called.
+std::string unit_of_field(const std::string& name, const MapSettings& settings,
+                          const SnapshotInfo& snapshot, int type);
 // The snapshot's unit of velocity. `what` begins the UsageError where it does not say it.
 double velocity_in_cgs(const MapSettings& settings, const SnapshotInfo& snapshot, int type,
                        const std::string& what);

@@ -9,6 +9,7 @@
 #include "common/words.h"
 #include "load/components.h"
 #include "load/missing_sizes.h"
+#include "map/component_of_map.h"
 #include "map/geometry.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"
@@ -68,19 +69,14 @@ Scene scene_of_place(const Scene& scene, const std::string& words, const std::st
   if (!is_halo && !is_densest && words != "mass" && words != "box") refuse(words, what);
   one.map.center.reset();
   one.map.width.reset();
+  one.map.lengths_with_units.clear();
   one.map.view = MapView::xy;
   one.map.center_at = is_densest                   ? MapCenter::densest
                       : is_halo || words == "mass" ? MapCenter::mass
                                                    : MapCenter::box;
-  one.components = {is_densest ? scene.components.front() : joined_component(scene)};
-  Component& component = one.components.front();
+  Component component = is_densest ? scene.components.front() : joined_component(scene);
   if (is_halo) component.select.halo = halo_number(words, what);
-  component.color = {};
-  component.intensity = {};
-  component.color_vector.clear();
-  one.finish = {};
-  one.sort = {};
-  return one;
+  return scene_of_numbers(one, component);
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 
 #include "common/physical_constants.h"
 #include "map/map_units.h"
+#include "map/shape.h"
 #include "splotchcl/error.h"
+#include "splotchcl/periodic.h"
 
 namespace splotchcl {
 namespace {
@@ -93,6 +95,26 @@ Column velocities_along(const Vec3& forward, const ComponentFields& fields, std:
 
 namespace {
 
+// Positive for what moves away from the map's center: of each particle the image nearest to it.
+Column velocities_from_center(const MapGeometry& geometry, const ComponentFields& fields,
+                              std::size_t count, const char* key) {
+  const Column velocity = fields.vectors("velocity", key), position = fields.positions();
+  const Vec3 origin = fields.origin();
+  std::vector<float> values(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double along = 0, square = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double offset =
+          static_cast<double>(position[3 * i + axis]) + origin.a[axis] - geometry.center.a[axis];
+      if (geometry.box) offset = nearest_image(offset, (*geometry.box)[axis]);
+      along += offset * static_cast<double>(velocity[3 * i + axis]);
+      square += offset * offset;
+    }
+    values[i] = static_cast<float>(square > 0 ? along / std::sqrt(square) : 0);
+  }
+  return Column::owning(std::move(values));
+}
+
 constexpr const char* quantity_key = "map.quantity";
 
 bool is_column(const MapSettings& settings) {
@@ -143,16 +165,53 @@ Column weights(const std::string& name, const ComponentFields& fields, std::size
 
 Column values(const std::string& name, const MapGeometry& geometry, const ComponentFields& fields,
               std::size_t count) {
+  if (name == "line_of_sight_velocity" && geometry.is_around_center)
+    return velocities_from_center(geometry, fields, count, quantity_key);
   if (name == "line_of_sight_velocity")
     return velocities_along(geometry.forward, fields, count, quantity_key);
   return fields.scalars(name, quantity_key);
 }
 
+const char* counts_in(MapShape shape) {
+  switch (shape) {
+    case MapShape::voxels:
+      return "particles per voxel";
+    case MapShape::profile:
+      return "particles per shell";
+    case MapShape::histogram:
+      return "particles per bin";
+    case MapShape::plane:
+    case MapShape::velocities:
+    case MapShape::healpix:
+    case MapShape::sky:
+      break;
+  }
+  return "particles per pixel";
+}
+
+const char* density_in(MapShape shape) {
+  switch (shape) {
+    case MapShape::voxels:
+    case MapShape::profile:
+      return "density";
+    case MapShape::healpix:
+    case MapShape::sky:
+      return "mass per solid angle";
+    case MapShape::histogram:
+      return "mass per bin";
+    case MapShape::plane:
+    case MapShape::velocities:
+      break;
+  }
+  return "surface density";
+}
+
 MapQuantity column_of(const MapSettings& settings, const ComponentFields& fields) {
   if (settings.quantity == "counts") {
-    return {MapQuantity::Kind::counts, Column::uniform(1), 1, {}, "particles per pixel", {}};
+    return {
+        MapQuantity::Kind::counts, Column::uniform(1), 1, {}, counts_in(shape_of(settings)), {}};
   }
-  const char* const what = settings.slice ? "density in a plane" : "surface density";
+  const char* const what = settings.slice ? "density in a plane" : density_in(shape_of(settings));
   require_masses(fields, fmt::format("a map of {}", what),
                  "set map.quantity to \"counts\", or to a field");
   return {MapQuantity::Kind::column, fields.masses(), 1, {}, what, {}};
@@ -212,7 +271,19 @@ void check_channels(const MapSettings& settings) {
 }
 
 void check_quantity(const MapSettings& settings) {
+  const MapShape shape = shape_of(settings);
   check_channels(settings);
+  if (settings.tile && settings.quantity == "line_of_sight_velocity") {
+    throw UsageError(
+        "key map.tile: found true beside map.quantity = \"line_of_sight_velocity\", expected one "
+        "of them: each image of a particle has another line of sight");
+  }
+  if (settings.quantity == "line_of_sight_velocity" &&
+      (shape == MapShape::voxels || shape == MapShape::histogram)) {
+    throw UsageError(
+        "key map.quantity: found \"line_of_sight_velocity\", expected a field: these cells have no "
+        "line of sight");
+  }
   if (settings.slice && settings.quantity == "counts") {
     throw UsageError(
         "key map.slice: found true beside map.quantity = \"counts\", expected another quantity: a "

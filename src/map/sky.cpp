@@ -74,12 +74,17 @@ double distance_in_cm(const std::string& text, const SnapshotInfo& snapshot) {
 
 }  // namespace
 
+std::string distance_as_length(const std::string& distance, const SnapshotInfo& snapshot) {
+  if (distance != "redshift") return distance;
+  return fmt::format("{} Mpc", angular_distance_in_mpc(snapshot));
+}
+
 // In the tangent plane at a distance D a length s is seen as the tangent s / D: the projection TAN
 // of the FITS standard, whose pixels are equal there.
 std::optional<SkyPlace> decide_sky(const MapSettings& settings, const SnapshotInfo& snapshot,
                                    const MapUnits& units, double pixel) {
   if (settings.distance.empty()) {
-    if (settings.sky == MapSettings().sky) return std::nullopt;
+    if (settings.sky == MapSettings().sky || settings.view == MapView::sky) return std::nullopt;
     throw UsageError(
         "key map.sky: found it without map.distance, expected both: from where the map is seen");
   }

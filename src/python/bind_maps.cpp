@@ -3,6 +3,7 @@
 
 #include <mutex>
 
+#include "map/shape.h"
 #include "python/bindings.h"
 #include "python/progress.h"
 #include "python/source.h"
@@ -22,8 +23,12 @@ py::buffer_info buffer_of(const Map& map, const std::vector<float>& values) {
   const auto height = static_cast<py::ssize_t>(map.height);
   constexpr bool is_read_only = true;
   float* const last_row = const_cast<float*>(values.data()) + (height - 1) * width;
-  if (map.velocity && &values == &map.values) {
-    const py::ssize_t channels = map.velocity->channels;
+  if (map.shape == MapShape::healpix || map.shape == MapShape::profile) {
+    return {last_row, size,        py::format_descriptor<float>::format(), 1, {width},
+            {size},   is_read_only};
+  }
+  if ((map.velocity || map.shape == MapShape::voxels) && &values == &map.values) {
+    const py::ssize_t channels = map.planes();
     return {last_row,
             size,
             py::format_descriptor<float>::format(),
@@ -61,6 +66,38 @@ DrawFrame drawing(const std::string& device, bool by_reference, const Progress& 
   return [&renderer](const Frame& frame) { return renderer->render(frame); };
 }
 
+const char* name_of(MapShape shape) {
+  switch (shape) {
+    case MapShape::plane:
+      return "plane";
+    case MapShape::velocities:
+      return "velocities";
+    case MapShape::healpix:
+      return "healpix";
+    case MapShape::sky:
+      return "sky";
+    case MapShape::voxels:
+      return "voxels";
+    case MapShape::profile:
+      return "profile";
+    case MapShape::histogram:
+      return "histogram";
+  }
+  return "";
+}
+
+// Name, unit and edges of each.
+std::vector<std::tuple<std::string, std::string, std::vector<double>>> axes_of(const Map& map) {
+  std::vector<std::tuple<std::string, std::string, std::vector<double>>> axes;
+  for (const MapAxis& axis : map.axes) {
+    std::vector<double> edges;
+    for (int i = 0; i <= axis.cells; ++i)
+      edges.push_back(axis.edge(i));
+    axes.emplace_back(axis.name, axis.unit, std::move(edges));
+  }
+  return axes;
+}
+
 py::tuple draw_map_object(const Scene& scene, const Source& source, const std::string& device,
                           bool by_reference, py::object report) {
   const Progress progress(std::move(report));
@@ -70,8 +107,11 @@ py::tuple draw_map_object(const Scene& scene, const Source& source, const std::s
     source.refresh();
     notes = source.snapshot().info().notes;
     std::optional<Renderer> renderer;
-    return draw_map(scene, source.snapshot(), drawing(device, by_reference, progress, renderer),
-                    notes, progress.function());
+    // Sums in cells need no device.
+    const bool is_drawn = !is_made_of_cells(shape_of(scene.map));
+    const DrawFrame draw =
+        is_drawn ? drawing(device, by_reference, progress, renderer) : DrawFrame();
+    return draw_map(scene, source.snapshot(), draw, notes, progress.function());
   }));
   return py::make_tuple(std::move(map), std::move(notes));
 }
@@ -109,6 +149,8 @@ void bind_maps(py::module_& module) {
                                if (map->effective_particles.empty()) return std::nullopt;
                                return Noise{map};
                              })
+      .def_property_readonly("shape", [](const Map& map) { return name_of(map.shape); })
+      .def_property_readonly("axes", &axes_of)
       .def_readonly("width", &Map::width)
       .def_readonly("height", &Map::height)
       .def_readonly("quantity", &Map::quantity)

@@ -1,3 +1,5 @@
+#include <variant>
+
 #include "scene_file/key_builder.h"
 
 namespace splotchcl::scene_file {
@@ -33,6 +35,101 @@ ValueType<std::vector<double>> numbers() {
     return "[" + text + "]";
   };
   return {"an array of finite numbers", read, write};
+}
+
+// A length as the snapshot's number, or as a text with a unit of its own (MapSettings).
+Key length_key(const std::string& name, std::optional<double> MapSettings::*member,
+               const Text& meaning) {
+  using Length = std::variant<double, std::string>;
+  const auto read = [](const toml::node& node) -> std::optional<Length> {
+    if (const auto value = number(more_than(0)).read(node)) return *value;
+    const auto words = text().read(node);
+    return words ? std::optional<Length>(*words) : std::nullopt;
+  };
+  const auto write = [](const Length& length) {
+    const auto* const words = std::get_if<std::string>(&length);
+    return words != nullptr ? write_text(*words) : write_number(std::get<double>(length));
+  };
+  return key<MapSettings, Length>(
+      "map." + name,
+      {number(more_than(0)).expected + ", or a length such as \"4 Mpc\"", read, write},
+      [name, member](const MapSettings& map) -> std::optional<Length> {
+        const auto found = map.lengths_with_units.find(name);
+        if (found != map.lengths_with_units.end()) return found->second;
+        return map.*member ? std::optional<Length>(*(map.*member)) : std::nullopt;
+      },
+      [name, member](MapSettings& map, const Length& length) {
+        map.lengths_with_units.erase(name);
+        if (const auto* const words = std::get_if<std::string>(&length)) {
+          map.lengths_with_units[name] = *words;
+        } else {
+          map.*member = std::get<double>(length);
+        }
+      },
+      meaning);
+}
+
+// Numbers, or a text such as "25,25,25Mpc".
+template <class V>
+Key lengths_key(const std::string& name, const ValueType<V>& numbers_of, const char* example,
+                std::optional<V> MapSettings::*member, const Text& meaning) {
+  using Lengths = std::variant<V, std::string>;
+  const auto read = [read_numbers =
+                         numbers_of.read](const toml::node& node) -> std::optional<Lengths> {
+    if (const auto values = read_numbers(node)) return Lengths(*values);
+    const auto words = text().read(node);
+    return words ? std::optional<Lengths>(*words) : std::nullopt;
+  };
+  const auto write = [write_numbers = numbers_of.write](const Lengths& lengths) {
+    const auto* const words = std::get_if<std::string>(&lengths);
+    return words != nullptr ? write_text(*words) : write_numbers(std::get<V>(lengths));
+  };
+  return key<MapSettings, Lengths>(
+      "map." + name,
+      {numbers_of.expected + ", or lengths such as \"" + example + "\"", read, write},
+      [name, member](const MapSettings& map) -> std::optional<Lengths> {
+        const auto found = map.lengths_with_units.find(name);
+        if (found != map.lengths_with_units.end()) return found->second;
+        return map.*member ? std::optional<Lengths>(*(map.*member)) : std::nullopt;
+      },
+      [name, member](MapSettings& map, const Lengths& lengths) {
+        map.lengths_with_units.erase(name);
+        if (const auto* const words = std::get_if<std::string>(&lengths)) {
+          map.lengths_with_units[name] = *words;
+        } else {
+          map.*member = std::get<V>(lengths);
+        }
+      },
+      meaning);
+}
+
+// A number alone stands for all.
+template <std::size_t size>
+ValueType<std::array<int, size>> counts(int at_least, const std::string& expected) {
+  constexpr int at_most = 8192;
+  using Counts = std::array<int, size>;
+  const auto read = [at_least](const toml::node& node) -> std::optional<Counts> {
+    Counts values{};
+    if (const auto one = integer(at_least, at_most).read(node)) {
+      values.fill(*one);
+      return values;
+    }
+    const toml::array* const array = node.as_array();
+    if (array == nullptr || array->size() != size) return std::nullopt;
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto one = integer(1, at_most).read((*array)[i]);
+      if (!one) return std::nullopt;
+      values[i] = *one;
+    }
+    return values;
+  };
+  const auto write = [](const Counts& values) {
+    std::string text;
+    for (const int value : values)
+      text += (text.empty() ? "" : ", ") + std::to_string(value);
+    return values[0] == 0 ? "0" : "[" + text + "]";
+  };
+  return {expected, read, write};
 }
 
 // A text that says nothing where it is empty.
@@ -81,17 +178,48 @@ Keys velocity_keys() {
   };
 }
 
+Keys shape_keys() {
+  return {
+      key("map.healpix", integer(0, 8192), &MapSettings::healpix,
+          {"A map of the sphere around the centre: its NSIDE."}),
+      key("map.healpix_order",
+          choice<HealpixOrder>({{"ring", HealpixOrder::ring}, {"nested", HealpixOrder::nested}}),
+          &MapSettings::healpix_order, {"How its pixels are numbered."}),
+      lengths_key<std::array<double, 2>>(
+          "shell", two_numbers({}, "[from, to]"), "10,20Mpc", &MapSettings::shell,
+          {"Distances from the centre: of particles of a sphere or sky, of a profile's shells.",
+           "length", "all (maps.md)"}),
+      key("map.tile", boolean(), &MapSettings::tile,
+          {"A sphere or sky has every periodic image in `shell`."}),
+      key("map.voxels", counts<3>(0, "a number, or [NX, NY, NZ], up to 8192"), &MapSettings::voxels,
+          {"A cube of voxels; `width` is along x."}),
+      key("map.profile", integer(0, 100000), &MapSettings::profile,
+          {"A radial profile in this many shells."}),
+      key("map.histogram", texts(), &MapSettings::histogram,
+          {"Of two fields, the first to the right.", "", "none"}),
+      key("map.bins", counts<2>(1, "a number, or [X, Y], up to 8192"), &MapSettings::bins,
+          {"Of the histogram."}),
+      key("map.x_range", two_numbers({}, "[from, to]"), &MapSettings::x_range,
+          {"Of its first field.", "the field's", "all"}),
+      key("map.y_range", two_numbers({}, "[from, to]"), &MapSettings::y_range,
+          {"Of its second field.", "the field's", "all"}),
+  };
+}
+
 Keys view_keys() {
   return {
       key("map.view",
           choice<MapView>({{"xy", MapView::xy},
                            {"xz", MapView::xz},
                            {"yz", MapView::yz},
-                           {"camera", MapView::camera}}),
+                           {"camera", MapView::camera},
+                           {"sky", MapView::sky}}),
           &MapSettings::view,
-          {"The axes to the right and upwards; `camera`: as the scene's camera looks."}),
-      key("map.center", vector(), &MapSettings::center,
-          {"The middle of the map.", "length", "what `center_at` says"}),
+          {"The axes to the right and upwards; `camera`: as the scene's camera looks; `sky`: from "
+           "the "
+           "centre."}),
+      lengths_key<Vec3>("center", vector(), "25,25,25Mpc", &MapSettings::center,
+                        {"The middle of the map.", "length", "what `center_at` says"}),
       key("map.center_at",
           choice<MapCenter>({{"box", MapCenter::box},
                              {"mass", MapCenter::mass},
@@ -99,9 +227,11 @@ Keys view_keys() {
           &MapSettings::center_at,
           {"Without a `center`: the middle of the box or of the particles, the centre of mass, or "
            "the densest particle. With the view `camera`, `box` is its look-at point."}),
-      key("map.width", number(more_than(0)), &MapSettings::width,
-          {"Between the left and right edges.", "length", "all of the box, or of the particles"}),
-      key("map.depth", number(more_than(0)), &MapSettings::depth,
+      length_key("width", &MapSettings::width,
+                 {"Between the left and right edges; of a sky in degrees.", "length",
+                  "all of the box, or of the particles"}),
+      length_key(
+          "depth", &MapSettings::depth,
           {"Only particles whose centres lie within half of it from the centre along the line of "
            "sight.",
            "length", "one side of a periodic box; otherwise no limit"}),
@@ -182,8 +312,8 @@ Keys figure_keys() {
 
 Keys map_keys() {
   Keys keys;
-  for (const Keys& part :
-       {quantity_keys(), velocity_keys(), view_keys(), number_keys(), sky_keys(), figure_keys()})
+  for (const Keys& part : {quantity_keys(), velocity_keys(), shape_keys(), view_keys(),
+                           number_keys(), sky_keys(), figure_keys()})
     append(keys, part);
   return written_if_set(std::move(keys));
 }

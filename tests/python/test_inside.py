@@ -98,6 +98,28 @@ def test_a_slice_of_swiftsimio(swift):
     assert difference(a.to_value(b.units), b.to_value(b.units)) < 0.15
 
 
+def test_a_volume_of_swiftsimio(swift):
+    from splotchcl import swiftsimio as ours
+    from swiftsimio.visualisation import volume_render as theirs
+
+    a, b = ours.render_gas(swift, 32), theirs.render_gas(swift, 32)
+    assert type(a) is type(b) and a.shape == b.shape == (32, 32, 32)
+    assert a.units.dimensions == b.units.dimensions and a.comoving == b.comoving
+    a, b = (np.asarray(cube.to_value(b.units), float) for cube in (a, b))
+    assert a.sum() == pytest.approx(b.sum(), rel=1e-2)
+    coarse = [cube.reshape(8, 4, 8, 4, 8, 4).mean(axis=(1, 3, 5)) for cube in (a, b)]
+    assert np.linalg.norm(coarse[0] - coarse[1]) < 0.1 * np.linalg.norm(coarse[1])
+
+
+def test_a_volume_that_is_no_cube_is_refused(swift):
+    from splotchcl.swiftsimio import render_gas
+    from swiftsimio.objects import cosmo_array
+
+    side = swift.metadata.boxsize[0]
+    with pytest.raises(ValueError, match="cubic"):
+        render_gas(swift, 8, region=cosmo_array([0 * side, side, 0 * side, side, 0 * side, 0.5 * side]))
+
+
 def test_a_slice_without_kernels_is_refused(swift):
     ours, _ = both("slice_gas")
     with pytest.raises(UsageError, match="nearest_neighbours"):

@@ -57,6 +57,8 @@ class RandomValues {
         {"[low, high], numbers", {"[20, 80.5]", "[0, 1e-300]", "[99.9, 100]"}},
         {"[right ascension", {"[0, -90]", "[359.9, 12.25]"}},
         {"a number > 0, or [x, y, z]", {"1e-9", "[1, 2.5, 3e+40]"}},
+        {"a number, or [NX", {"64", "[16, 1, 8192]"}},
+        {"a number, or [X", {"64", "[16, 8192]"}},
         {"a particle type", {"31", "\"stars\"", "[1, \"boundary\", 6]"}},
         {"a list of paths", {"\"a%03d\"", "\"a%03db%%\"", "[\"a\"]", "[\"é\", \"b\\tc\"]"}},
         {"a formula", {"\"log10(U) * RHO\"", "\"x > 1 ? -x^2 : `é 1`\""}},

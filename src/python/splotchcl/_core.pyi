@@ -90,6 +90,8 @@ class Noise(Buffer): ...
 
 class Map(Buffer):
     noise: Noise | None
+    shape: str
+    axes: list[tuple[str, str, list[float]]]
     width: int
     height: int
     quantity: str

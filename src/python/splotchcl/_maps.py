@@ -34,7 +34,8 @@ class Map:
 
     @property
     def values(self) -> np.ndarray[Any, np.dtype[np.float32]]:
-        """float32 of shape (height, width) in `unit`, read-only; row 0 is the lowest. Of a cube (channels, height, width).
+        """float32 of shape (height, width) in `unit`, read-only; row 0 is the lowest. Of a cube (channels, height, width),
+        of voxels (z, y, x), of a sphere or a profile one axis.
 
         Not a number where a mean has too little matter to be known.
         """
@@ -69,9 +70,21 @@ class Map:
         return self._map.length_unit
 
     @property
-    def axes(self) -> tuple[str, str]:
-        """What points to the right and upwards: ("x", "y")."""
+    def axes(self) -> tuple[str, ...]:
+        """What points to the right and upwards: ("x", "y"). Of voxels ("x", "y", "z"), of a profile ("radius",), of a histogram its fields."""
+        if self._map.axes:
+            return tuple(name for name, _, _ in self._map.axes)
         return self._map.right_name, self._map.up_name
+
+    @property
+    def edges(self) -> tuple[np.ndarray[Any, Any], ...]:
+        """Of the cells along each of the `axes` of voxels, a profile or a histogram; else none."""
+        return tuple(np.array(edges) for _, _, edges in self._map.axes)
+
+    @property
+    def axis_units(self) -> tuple[str, ...]:
+        """Of `edges`."""
+        return tuple(unit for _, unit, _ in self._map.axes)
 
     @property
     def velocities(self) -> np.ndarray[Any, Any] | None:
@@ -98,7 +111,10 @@ class Map:
         right, up = self._map.center_right, self._map.center_up
         return right - half[0], right + half[0], up - half[1], up + half[1]
 
-    def _repr_png_(self) -> bytes:
+    # A cube has no figure.
+    def _repr_png_(self) -> bytes | None:
+        if self._map.shape in ("velocities", "voxels"):
+            return None
         with tempfile.TemporaryDirectory() as folder:
             figure = Path(folder, "map.png")
             self._map.save(figure, self.scene._scene, self._source._source)
@@ -141,6 +157,14 @@ def column(
     channels: int | None = None,
     velocity_range: tuple[float, float] | None = None,
     line_mass: float | None = None,
+    healpix: int | None = None,
+    order: str | None = None,
+    shell: tuple[float, float] | str | None = None,
+    tile: bool = False,
+    voxels: int | Sequence[int] | None = None,
+    profile: int | None = None,
+    histogram: tuple[str, str] | None = None,
+    bins: int | tuple[int, int] | None = None,
     tolerance: float | None = None,
     device: str | None = None,
     settings: Mapping[str, Any] | None = None,
@@ -165,8 +189,9 @@ def column(
     statistic : {"mean", "dispersion", "integral"}, optional
     slice : bool
         In the plane through the center, instead of along the line.
-    view : {"xy", "xz", "yz", "camera"}
-        The first axis points to the right, the second upwards.
+    view : {"xy", "xz", "yz", "camera", "sky"}
+        The first axis points to the right, the second upwards. "sky" looks all around from `center`; the
+        width is an angle then.
     center : 3 floats or {"box", "mass", "densest"}, optional
         The middle, in the snapshot's unit of length; values with a unit of their own, such as
         "25 Mpc", are converted.
@@ -184,6 +209,22 @@ def column(
         Of the channels, in the snapshot's unit; None: all velocities.
     line_mass : float, optional
         Lines of a cube have the thermal width of particles of so many proton masses.
+
+    healpix : int, optional
+        A map of the sphere around `center`, with this NSIDE: the values of its pixels, as healpy has them.
+    order : {"ring", "nested"}, optional
+    shell : 2 floats or str, optional
+        Between these distances from `center`, such as "10,20Mpc"; of a profile its first and last radius.
+    tile : bool
+        A sphere or a sky has every periodic image in `shell`, not only the nearest.
+    voxels : int or 3 ints, optional
+        A cube of voxels along x, y and z.
+    profile : int, optional
+        Means, or densities, in so many shells around `center`.
+    histogram : 2 str, optional
+        The mass, or a field's mean, in bins of two fields.
+    bins : int or 2 ints, optional
+        Of the histogram.
 
     Returns
     -------
@@ -206,6 +247,14 @@ def column(
     keys |= {key: value for key, value in cube.items() if value is not None}
     if velocity_range is not None:
         keys["map.velocity_range"] = [float(v) for v in velocity_range]
+    shapes = {"map.healpix": healpix, "map.healpix_order": order, "map.profile": profile}
+    keys |= {key: value for key, value in shapes.items() if value is not None}
+    lists = {"map.shell": shell, "map.voxels": voxels, "map.histogram": histogram, "map.bins": bins}
+    for key, value in lists.items():
+        if value is not None:
+            keys[key] = value if isinstance(value, int | str) else list(value)
+    if tile:
+        keys["map.tile"] = True
     if slice:
         keys["map.slice"] = True
     if noise:
@@ -224,11 +273,12 @@ def column(
         {key: _converted(key, lengths[key], what.scene, what.source) for key in with_units}
     )
     for key in ("map.width", "map.center", "map.depth"):
-        if key in written:
+        if key in written and isinstance(lengths[key], str):
+            what.scene[key] = lengths[key]
+        elif key in written:
             what.scene[key] = _read_lengths(key, lengths[key], what.scene, what.source)
-            unit_of_axes = what.scene["map.axis_unit"] or _written_unit(lengths[key])
-            if unit_of_axes:
-                what.scene["map.axis_unit"] = unit_of_axes
+            if not what.scene["map.axis_unit"] and "map.width" not in written:
+                what.scene["map.axis_unit"] = _written_unit(lengths[key])
     by_reference = device == "reference"
     name = "" if device is None or by_reference else device
     with nullcontext() if by_reference else using_opencl():
@@ -274,15 +324,15 @@ def _is_written(length: Any) -> bool:
     )
 
 
-def _read_lengths(key: str, length: Any, scene: Scene, source: Source) -> float | list[float]:
+def _read_lengths(key: str, length: Any, scene: Scene, source: Source) -> list[float]:
     def read(one: Any) -> float:
         return float(_core.read_map_length(str(one), scene._scene, source._source, f"key {key}"))
 
-    return read(length) if isinstance(length, str) else [read(one) for one in length]
+    return [read(one) for one in length]
 
 
 def _written_unit(length: Any) -> str:
-    texts = [length] if isinstance(length, str) else [x for x in length if isinstance(x, str)]
+    texts = [x for x in length if isinstance(x, str)]
     return texts[-1].strip().lstrip("+-.0123456789eE").strip()
 
 

@@ -24,6 +24,7 @@ class Grid:
     depth: float | None = None  # of centers along the line of sight; None: no limit
     box: Sequence[float] | None = None  # sides of a periodic box
     is_slice: bool = False
+    voxels: int = 0  # along each side of a cube, in place of pixels
 
 
 def sum_of(
@@ -34,7 +35,7 @@ def sum_of(
     tolerance: float | None,
     device: str | None,
 ) -> _Array:
-    """Of amounts of either sign, per area of a map seen from above (of a slice per volume).
+    """Of amounts of either sign, per area of a map seen from above (of a slice or voxels per volume).
 
     `reach` is where kernels end. The first index is the row, from the lowest on.
     """
@@ -42,7 +43,7 @@ def sum_of(
     # Single precision may not hold them in the units that they come in.
     largest = float(np.abs(amount).max(initial=0)) or 1.0
     offset = (np.asarray(position, np.float64) - np.asarray(grid.center, np.float64)).astype(np.float32)
-    total = np.zeros(grid.size[::-1])
+    total = np.zeros([grid.voxels] * 3 if grid.voxels else grid.size[::-1])
     for sign in (1, -1):
         mass = (np.clip(sign * amount, 0, None) / largest).astype(np.float32)
         if not mass.any():
@@ -61,7 +62,8 @@ def sum_of(
             center=[0.0, 0.0, 0.0],
             width=grid.pixel * grid.size[0],
             depth=grid.depth,
-            size=grid.size,
+            size=None if grid.voxels else grid.size,
+            voxels=grid.voxels or None,
             tolerance=tolerance,
             device=device,
             settings=settings,

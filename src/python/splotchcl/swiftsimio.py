@@ -1,4 +1,4 @@
-"""swiftsimio's functions that project and slice, drawn by splotchcl.
+"""swiftsimio's functions that project, slice and render volumes, drawn by splotchcl.
 
 >>> from splotchcl.swiftsimio import project_gas
 >>> project_gas(swiftsimio.load("snapshot.hdf5"), resolution=1024, project="masses")
@@ -20,7 +20,9 @@ from ._core import UsageError
 from ._objects import reach_of_swift
 from ._projection import Grid, sum_of
 
-__all__ = ["project_gas", "project_pixel_grid", "slice_gas", "slice_pixel_grid"]
+__all__ = [
+    "project_gas", "project_pixel_grid", "render_gas", "render_voxel_grid", "slice_gas", "slice_pixel_grid",
+]  # fmt: skip
 
 
 def project_gas(
@@ -123,6 +125,53 @@ def slice_pixel_grid(
     return view.draw(grid, mask, tolerance, device, power=3)
 
 
+def render_gas(
+    data: Any,
+    resolution: int,
+    project: str | None = "masses",
+    parallel: bool = False,
+    rotation_matrix: Any = None,
+    rotation_center: Any = None,
+    region: Any = None,
+    periodic: bool = True,
+    mask: Any = None,
+    backend: str = "scatter",
+    *,
+    tolerance: float | None = None,
+    device: str | None = None,
+) -> Any:
+    """A field of the gas in voxels, per volume: a cosmo_array with the axes x, y and z. Kernels are exact, whatever the tolerance."""
+    return render_voxel_grid(
+        data.gas, resolution, project, parallel, rotation_matrix, rotation_center, region, periodic, mask,
+        backend, tolerance=tolerance, device=device,
+    )  # fmt: skip
+
+
+def render_voxel_grid(
+    data: Any,
+    resolution: int,
+    project: str | None = "masses",
+    parallel: bool = False,
+    rotation_matrix: Any = None,
+    rotation_center: Any = None,
+    region: Any = None,
+    periodic: bool = True,
+    mask: Any = None,
+    backend: str = "scatter",
+    *,
+    tolerance: float | None = None,
+    device: str | None = None,
+) -> Any:
+    """The same of any group of particles."""
+    view = _View(data, project, region, rotation_matrix, rotation_center, periodic)
+    if not view.is_cube:
+        raise ValueError("Projection region must be cubic")
+    grid = Grid(
+        view.middle, view.pixel(resolution), view.size(resolution), None, view.periodic_box, voxels=resolution
+    )
+    return view.draw(grid, mask, tolerance, device, power=3)
+
+
 class _View:
     """A region of a dataset in numbers: all lengths in the unit of its coordinates, comoving where
     the projected field is."""
@@ -165,6 +214,10 @@ class _View:
         self.depth = self._ranges[2]
         self._edges = edges
         self.middle = [0.5 * (low + high) for low, high in edges]
+
+    @property
+    def is_cube(self) -> bool:
+        return bool(np.allclose(self._ranges, self._ranges[0], rtol=1e-9))
 
     # As the field is, comoving or physical; a field that says neither takes lengths as they are.
     def _alike(self, lengths: Any) -> Any:

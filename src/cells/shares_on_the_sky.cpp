@@ -1,0 +1,217 @@
+#include "cells/shares_on_the_sky.h"
+
+#include <algorithm>
+#include <array>
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
+
+#include "scene/constants.h"
+
+namespace splotchcl {
+namespace {
+
+using namespace boost::qvm;
+
+// Points of Gauss and Legendre along an axis from 0 to 1, exact to the order 2 `count` - 1; errors
+// are the next even derivative over `divisor`, times the side of a patch to that power.
+struct Rule {
+  int count;
+  double divisor;
+  std::array<double, 4> places, weights;
+};
+
+constexpr std::array<Rule, 3> rules = {{
+    {1, 24, {0.5}, {1}},
+    {2, 4320, {0.2113248654051871, 0.7886751345948129}, {0.5, 0.5}},
+    {4,
+     1778112000,
+     {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263},
+     {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269}},
+}};
+
+// Of cells that are no squares in the sky, the longer side over their mean side.
+constexpr double stretch = 1.2;
+
+struct SeenPatch {
+  SkyPatch patch;
+  Vec3 direction;  // to its middle
+};
+
+// How far out, as GaussianOnSky::square() has it, there is more than a hair of what may be wrong.
+double squares_that_count(const SkyAccuracy& accuracy) {
+  constexpr double hair = 1e-3;
+  return std::log(1 / std::clamp(hair * accuracy.tolerance * accuracy.floor, 1e-300, 1e-2));
+}
+
+class SkySpread {
+ public:
+  SkySpread(const SkyGrid& grid, const GaussianOnSky& particle, const SkyAccuracy& accuracy,
+            std::vector<CellShare>& shares)
+      : grid_(grid),
+        particle_(particle),
+        accuracy_(accuracy),
+        reach_(particle.reach_of(squares_that_count(accuracy))),
+        shares_(shares) {}
+
+  // Down to whole cells.
+  void find_cells(const SkyPatch& patch, std::vector<SeenPatch>& cells) const {
+    const Vec3 direction = middle_of(patch);
+    if (is_out_of_reach(patch, direction)) return;
+    if (patch.width <= 1 && patch.height <= 1) {
+      cells.push_back({patch, direction});
+      return;
+    }
+    for (const SkyPatch& part : parts_of(patch, false))
+      find_cells(part, cells);
+  }
+
+  // One in reach.
+  void visit(const SeenPatch& seen) {
+    const auto& [patch, direction] = seen;
+    if (const Rule* const rule = rule_for(patch, direction)) {
+      add(patch, *rule);
+      return;
+    }
+    for (const SkyPatch& part : parts_of(patch, true)) {
+      const Vec3 middle = middle_of(part);
+      if (!is_out_of_reach(part, middle)) visit({part, middle});
+    }
+  }
+
+ private:
+  Vec3 middle_of(const SkyPatch& patch) const {
+    return grid_.direction(patch.face, patch.x + 0.5 * patch.width, patch.y + 0.5 * patch.height);
+  }
+
+  bool is_out_of_reach(const SkyPatch& patch, const Vec3& direction) const {
+    const double farthest = reach_ + grid_.radius(patch);
+    if (farthest >= pi) return false;
+    // The chord has digits where the cosine of small angles has none.
+    const double chord = 2 * std::sin(0.5 * farthest);
+    return mag_sqr(direction - particle_.middle()) > chord * chord;
+  }
+
+  // The first one whose error is allowed; null where the patch is too large for all. Errors follow
+  // from how steep the particle is there; far out, where little is left, they do not count.
+  const Rule* rule_for(const SkyPatch& patch, const Vec3& direction) const {
+    const double out = std::sqrt(particle_.square(direction));
+    const double area =
+        patch.width * patch.height *
+        grid_.density(patch.face, patch.x + 0.5 * patch.width, patch.y + 0.5 * patch.height);
+    const double side = stretch * std::sqrt(area) / particle_.width();
+    const double nearest = std::max(0.0, out - grid_.radius(patch) / particle_.width());
+    const double left = std::exp(-std::min(nearest * nearest, 700.0));
+    const double allowed = accuracy_.tolerance * std::max(1.0, accuracy_.floor / left);
+    constexpr double least_slope = 2.5;  // of a Gaussian's derivatives in its middle
+    const double slope = std::max(least_slope, 2 * out) * side;
+    const double square = slope * slope, fourth = square * square;
+    const std::array<double, rules.size()> errors = {square, fourth, fourth * fourth};
+    for (std::size_t i = 0; i < rules.size(); ++i) {
+      if (errors[i] < allowed * rules[i].divisor) return &rules[i];
+    }
+    return nullptr;
+  }
+
+  // A quarter each; as long as there are some, of whole cells.
+  static std::vector<SkyPatch> parts_of(const SkyPatch& patch, bool is_in_cell) {
+    const auto half = [is_in_cell](double side) {
+      return is_in_cell ? 0.5 * side : std::ceil(0.5 * side);
+    };
+    const double width = half(patch.width), height = half(patch.height);
+    const double other_width = patch.width - width, other_height = patch.height - height;
+    std::vector<SkyPatch> parts = {{patch.face, patch.x, patch.y, width, height}};
+    if (other_width > 0)
+      parts.push_back({patch.face, patch.x + width, patch.y, other_width, height});
+    if (other_height > 0)
+      parts.push_back({patch.face, patch.x, patch.y + height, width, other_height});
+    if (other_width > 0 && other_height > 0)
+      parts.push_back({patch.face, patch.x + width, patch.y + height, other_width, other_height});
+    return parts;
+  }
+
+  double value_at(const SkyPatch& patch, double x, double y) const {
+    const double on_face_x = patch.x + patch.width * x, on_face_y = patch.y + patch.height * y;
+    return particle_(grid_.direction(patch.face, on_face_x, on_face_y)) *
+           grid_.density(patch.face, on_face_x, on_face_y);
+  }
+
+  double sum_over_square(const SkyPatch& patch, const Rule& rule) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rule.count); ++i) {
+      for (std::size_t j = 0; j < static_cast<std::size_t>(rule.count); ++j)
+        sum += rule.weights[i] * rule.weights[j] * value_at(patch, rule.places[i], rule.places[j]);
+    }
+    return sum;
+  }
+
+  // On both sides of the diagonal: squares that have shrunk to a corner.
+  double sum_over_triangles(const SkyPatch& patch, const Rule& rule) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(rule.count); ++i) {
+      for (std::size_t j = 0; j < static_cast<std::size_t>(rule.count); ++j) {
+        const double x = rule.places[i], y = (1 - x) * rule.places[j];
+        sum += rule.weights[i] * rule.weights[j] * (1 - x) *
+               (value_at(patch, x, y) + value_at(patch, 1 - x, 1 - y));
+      }
+    }
+    return sum;
+  }
+
+  void add(const SkyPatch& patch, const Rule& rule) {
+    const double mean = grid_.is_bent(patch) ? sum_over_triangles(patch, rules.back())
+                                             : sum_over_square(patch, rule);
+    const double part = patch.width * patch.height * mean;
+    if (!(part > 0)) return;
+    const std::size_t cell = grid_.cell(patch.face, static_cast<int>(std::floor(patch.x)),
+                                        static_cast<int>(std::floor(patch.y)));
+    if (!shares_.empty() && shares_.back().cell == cell && shares_.size() > first_) {
+      shares_.back().part += part;
+    } else {
+      shares_.push_back({cell, part});
+    }
+  }
+
+  const SkyGrid& grid_;
+  const GaussianOnSky& particle_;
+  SkyAccuracy accuracy_;
+  double reach_;
+  std::vector<CellShare>& shares_;
+  std::size_t first_ = shares_.size();
+};
+
+void bring_to_one(std::size_t first, std::vector<CellShare>& shares) {
+  double sum = 0;
+  for (std::size_t i = first; i < shares.size(); ++i)
+    sum += shares[i].part;
+  if (!(sum > 0)) return;
+  for (std::size_t i = first; i < shares.size(); ++i)
+    shares[i].part /= sum;
+}
+
+}  // namespace
+
+void add_shares_on_the_sky(const SkyGrid& grid, const GaussianOnSky& particle,
+                           const SkyAccuracy& accuracy, std::vector<CellShare>& shares) {
+  // So narrow that coordinates have no digits left to tell its edges by.
+  constexpr double a_point = 1e-11;
+  if (particle.width() < a_point) {
+    if (const auto cell = grid.cell_at(particle.middle())) shares.push_back({*cell, 1});
+    return;
+  }
+  const std::size_t first = shares.size();
+  SkySpread spread(grid, particle, accuracy, shares);
+  std::vector<SeenPatch> cells;
+  for (const SkyPatch& face : grid.faces())
+    spread.find_cells(face, cells);
+  const bool has_all = grid.has_all_of_the_sky();
+  if (has_all && cells.size() == 1) {
+    const SkyPatch& only = cells.front().patch;
+    shares.push_back({grid.cell(only.face, static_cast<int>(only.x), static_cast<int>(only.y)), 1});
+    return;
+  }
+  for (const SeenPatch& cell : cells)
+    spread.visit(cell);
+  if (has_all) bring_to_one(first, shares);
+}
+
+}  // namespace splotchcl

@@ -1,0 +1,96 @@
+#include "map/shape.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cells/healpix_grid.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+using Asked = std::pair<MapShape, const char*>;
+
+std::vector<Asked> asked_shapes(const MapSettings& settings) {
+  std::vector<Asked> asked;
+  if (settings.channels > 0) asked.emplace_back(MapShape::velocities, "channels");
+  if (settings.healpix > 0) asked.emplace_back(MapShape::healpix, "healpix");
+  if (settings.voxels[0] > 0) asked.emplace_back(MapShape::voxels, "voxels");
+  if (settings.profile > 0) asked.emplace_back(MapShape::profile, "profile");
+  if (!settings.histogram.empty()) asked.emplace_back(MapShape::histogram, "histogram");
+  if (settings.view == MapView::sky) asked.emplace_back(MapShape::sky, "view = \"sky\"");
+  return asked;
+}
+
+void refuse_key(const std::string& key, const std::string& expected) {
+  throw UsageError(fmt::format("key map.{}: found it in such a map, expected {}", key, expected));
+}
+
+void check_shell(const MapSettings& settings, MapShape shape) {
+  if (!settings.shell) return;
+  if (!is_around_the_center(shape))
+    refuse_key("shell", "it beside map.healpix, map.profile or a sky");
+  const auto [low, high] = *settings.shell;
+  const bool is_open = shape == MapShape::profile ? low > 0 : low >= 0;
+  if (is_open && high > low) return;
+  throw UsageError(fmt::format("key map.shell: found {} to {}, expected rising radii, from {} on",
+                               low, high, shape == MapShape::profile ? "more than 0" : "0"));
+}
+
+void check_sphere(const MapSettings& settings, MapShape shape) {
+  if (settings.healpix > 0 && !is_healpix_side(settings.healpix)) {
+    throw UsageError(fmt::format("key map.healpix: found {}, expected a power of two from 1 to {}",
+                                 settings.healpix, most_healpix_sides));
+  }
+  if (!settings.tile) return;
+  if (shape != MapShape::healpix && shape != MapShape::sky)
+    refuse_key("tile", "it beside map.healpix or a sky");
+  if (!settings.shell) refuse_key("tile", "map.shell beside it: images have no end");
+}
+
+void check_histogram(const MapSettings& settings) {
+  if (settings.histogram.empty() || settings.histogram.size() == 2) return;
+  throw UsageError(
+      fmt::format("key map.histogram: found {} fields, expected two", settings.histogram.size()));
+}
+
+// What has no meaning there.
+void check_quantity_of_cells(const MapSettings& settings) {
+  if (settings.slice) refuse_key("slice", "sums in cells");
+  if (settings.noise) refuse_key("noise", "a map in a plane");
+  if (settings.statistic == MapStatistic::integral)
+    refuse_key("statistic = \"integral\"", "\"mean\" or \"dispersion\"");
+  if (!settings.distance.empty()) refuse_key("distance", "a map in a plane");
+  if (settings.depth || settings.lengths_with_units.count("depth") > 0)
+    refuse_key("depth", "map.shell, or a selection");
+}
+
+}  // namespace
+
+bool is_around_the_center(MapShape shape) {
+  return shape == MapShape::healpix || shape == MapShape::sky || shape == MapShape::profile;
+}
+
+bool is_made_of_cells(MapShape shape) {
+  return shape != MapShape::plane && shape != MapShape::velocities;
+}
+
+MapShape shape_of(const MapSettings& settings) {
+  const std::vector<Asked> asked = asked_shapes(settings);
+  if (asked.size() > 1) {
+    throw UsageError(fmt::format("keys map.{} and map.{}: found both, expected one of them",
+                                 asked[0].second, asked[1].second));
+  }
+  const MapShape shape = asked.empty() ? MapShape::plane : asked.front().first;
+  check_shell(settings, shape);
+  check_sphere(settings, shape);
+  check_histogram(settings);
+  if (is_made_of_cells(shape)) check_quantity_of_cells(settings);
+  return shape;
+}
+
+}  // namespace splotchcl
