@@ -15,6 +15,7 @@
 
 #include "image/png_file.h"
 #include "snapshot/cached_snapshot.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
@@ -148,6 +149,21 @@ std::shared_ptr<const Snapshot> ViewDrawer::snapshot_of(const Scene& scene) cons
   if (!scene.time.is_set()) return snapshot_;
   moment_ = source_.at(scene);
   return moment_;
+}
+
+const Component& ViewDrawer::component_for(const std::string& type) {
+  if (const auto known = components_for_.find(type); known != components_for_.end())
+    return known->second;
+  const std::optional<int> number = find_particle_type(type);
+  if (!number || snapshot_->info().find_type(*number) == nullptr) {
+    throw UsageError("a component: found particles of the type '" + type +
+                     "', expected some that the snapshot has");
+  }
+  Scene alone = opened_;
+  alone.path = {};
+  alone.components = {suggest_component(*snapshot_, {*number})};
+  alone.components.front().name = type;
+  return components_for_[type] = decide(alone).components.front();
 }
 
 Scene ViewDrawer::decide(const Scene& scene) const {
