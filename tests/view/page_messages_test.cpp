@@ -70,6 +70,36 @@ TEST(PageMessages, AStateMayHaveKeyframesAndAFrameOfTheirFilm) {
   EXPECT_EQ(state.keyframes->at(0).values.at("camera.position"), "[1, 2, 3]");
 }
 
+TEST(PageMessages, KeyframesMaySlowDownAndStay) {
+  const auto state = std::get<PageState>(parse_page_message(
+      R"({"type":"state","number":1,"moving":false,"settings":{},"hidden":[],"keyframes":)"
+      R"([{"frame":5,"settings":{"component.0.brightness":2},"ease":true,"dwell":25}]})"));
+  EXPECT_TRUE(state.keyframes->at(0).is_eased);
+  EXPECT_EQ(state.keyframes->at(0).dwell, 25);
+}
+
+TEST(PageMessages, AStateMayHaveComponentsForOtherParticles) {
+  const std::string start =
+      R"({"type":"state","number":1,"moving":false,"settings":{},"hidden":[],"added":)";
+  const auto state = std::get<PageState>(parse_page_message(start + R"(["halo","halo"]})"));
+  EXPECT_THAT(state.added, ElementsAre("halo", "halo"));
+  for (const char* const added : {"3}", R"(["halo",3]})", R"([""]})"})
+    EXPECT_NE(refusal(start + added), "") << added;
+}
+
+TEST(PageMessages, FilmsAreMadeAndCancelled) {
+  const auto question = std::get<PageQuestion>(
+      parse_page_message(R"({"type":"make_film","id":3,"path":"a.mp4","replace":false})"));
+  EXPECT_EQ(std::get<MakeFilm>(question.what).path, "a.mp4");
+  EXPECT_TRUE(std::holds_alternative<CancelFilm>(parse_page_message(R"({"type":"cancel_film"})")));
+}
+
+TEST(PageMessages, KeysThatMayBeSetAreOfEachComponent) {
+  EXPECT_THAT(settable_keys(2), ::testing::Contains("component.1.color.field"));
+  EXPECT_TRUE(is_settable("component.7.select.where"));
+  EXPECT_FALSE(is_settable("component.7.select.ids"));
+}
+
 TEST(PageMessages, KeyframesWithoutFrameOrSettingsAreRefused) {
   const std::string start =
       R"({"type":"state","number":1,"moving":false,"settings":{},"hidden":[],"keyframes":[)";

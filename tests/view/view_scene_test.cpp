@@ -114,6 +114,42 @@ TEST(ViewScene, AFrameOfTheFilmIsBetweenItsKeyframes) {
   EXPECT_THROW(at_frame(scene, 11), UsageError);
 }
 
+TEST(ViewScene, LeavesToItsDefaultWhatThePageTakesAway) {
+  Scene opened = opened_scene();
+  opened.stereo.emplace();
+  opened.finish.title.text = "title";
+  opened.components[1].select.where = {"density > 1"};
+  opened.components[1].select.sphere_radius = 3;
+  opened.components[1].intensity.field = "density";
+  PageState state;
+  state.open = {"stereo.layout", "finish.title.text", "component.1.select.where",
+                "component.1.select.sphere.radius", "component.1.intensity.field"};
+  const Scene scene = scene_of(opened, nullptr, state);
+  EXPECT_FALSE(scene.stereo);
+  EXPECT_EQ(scene.finish.title.text, "");
+  EXPECT_FALSE(scene.components[1].select.is_given());
+  EXPECT_EQ(scene.components[1].intensity.field, "");
+}
+
+TEST(ViewScene, ComponentsThatAreAddedHaveNamesOfTheirOwn) {
+  Component halo;
+  halo.name = "halo";
+  const Scene scene = with_components(opened_scene(), {halo, halo});
+  ASSERT_EQ(scene.components.size(), 4u);
+  EXPECT_EQ(scene.components[2].name, "halo");
+  EXPECT_EQ(scene.components[3].name, "halo 2");
+}
+
+TEST(ViewScene, KeyframesFollowTheComponentsThatStay) {
+  Scene scene = opened_scene();
+  scene.path.keyframes = {{0, {{"component.0.brightness", "1"}, {"component.1.brightness", "2"}}},
+                          {5, {{"component.0.brightness", "3"}}}};
+  const Scene shown = without_hidden(scene, {0});
+  ASSERT_EQ(shown.path.keyframes.size(), 1u);
+  EXPECT_THAT(shown.path.keyframes[0].values, ElementsAre(std::pair<const std::string, std::string>(
+                                                  "component.0.brightness", "2")));
+}
+
 TEST(ViewScene, OtherKeysCannotBeOpen) {
   PageState state;
   state.open = {"camera.position"};

@@ -312,6 +312,100 @@ def test_a_flight_is_recorded_as_few_keyframes(page):
     assert page.browser.find_element(By.ID, "plan").is_displayed()
 
 
+def test_a_kind_of_particles_is_added_and_removed_again(page):
+    before = page.picture()
+    Select(page.find("Add a component")).select_by_value("gas")
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: page.script("app.components.length === 3"))
+    page.wait_for_exact()
+    assert page.picture() != before
+    Select(page.find("Palette of gas 2")).select_by_visible_text("viridis")
+    page.find("Remove the component gas 2").click()
+    page.wait_for_exact()
+    assert page.picture() == before
+
+
+def test_what_no_scene_can_have_is_said_beside_the_field(page):
+    field = page.find("Field of view")
+    page.type_number("Field of view", "many")
+    assert "expected a number" in problem_of(page, field)
+    page.type_number("Field of view", 400)
+    assert "found 400, expected a number from 0.001 to 360" in problem_of(page, field)
+    page.browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true;")
+    where = page.find("Only gas where")
+    where.send_keys("nonsense > 1", Keys.ENTER)
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: where.get_attribute("aria-invalid"))
+    assert "nonsense" in problem_of(page, where)
+    where.clear()
+    where.send_keys("density > 0", Keys.ENTER)
+    page.wait_for_exact()
+    assert where.get_attribute("aria-invalid") is None
+
+
+def problem_of(page, field):
+    return page.browser.find_element(By.ID, field.get_attribute("aria-describedby")).text
+
+
+def test_numbers_are_dragged_and_have_exponents(page):
+    before = page.setting("component.0.brightness")
+    ActionChains(page.browser).drag_and_drop_by_offset(page.find("Brightness of gas"), 40, 0).perform()
+    page.wait_for_exact()
+    assert page.setting("component.0.brightness") == pytest.approx(before * 1.01**40, rel=0.05)
+    assert page.find("Undo").get_attribute("title") == "Undo: gas brightness"
+    page.find("Undo").click()
+    assert page.setting("component.0.brightness") == before
+    page.type_number("Range maximum of gas", "2.5e7")
+    page.wait_for_exact()
+    assert page.setting("component.0.color.max") == 2.5e7
+    assert page.find("Range maximum of gas").get_attribute("value") == "2.5e7"
+
+
+def test_glasses_of_red_and_cyan_and_words_change_the_picture(page):
+    pictures = {page.picture()}
+    Select(page.find("Stereo")).select_by_value("anaglyph")
+    page.wait_for_exact()
+    pictures.add(page.picture())
+    page.find("Title").send_keys("Title", Keys.ENTER)
+    page.wait_for_exact()
+    pictures.add(page.picture())
+    assert len(pictures) == 3
+    Select(page.find("Stereo")).select_by_value("none")
+    page.find("Title").clear()
+    page.find("Caption").click()
+    page.wait_for_exact()
+    assert page.picture() in pictures
+
+
+def test_states_are_kept_compared_and_linked_to(page):
+    start = page.picture()
+    page.find("Keep this view").click()
+    page.find("Compare with another state").click()
+    Select(page.find("Palette of gas")).select_by_visible_text("viridis")
+    page.wait_for_exact()
+    changed = page.picture()
+    page.find("Compare with another state").click()
+    page.wait_for_exact()
+    assert page.picture() == start
+    page.find("Compare with another state").click()
+    page.wait_for_exact()
+    assert page.picture() == changed
+    page.find("Link to this state").click()
+    address = page.script("location.href")
+    page.find("Open kept view 1").click()
+    page.wait_for_exact()
+    assert page.picture() == start
+    page.browser.get("about:blank")
+    page.browser.get(address)
+    page.wait_for_exact()
+    assert page.picture() == changed
+
+
+def test_the_probe_tells_what_is_under_the_pointer(page):
+    page.find("Probe what is under the pointer").click()
+    told = WebDriverWait(page.browser, PATIENCE).until(
+        lambda browser: browser.find_element(By.ID, "probed").text)
+    assert "away" in told and "gas: mean internal_energy" in told
+
+
 def test_another_field_gets_a_range_of_its_own(page):
     Select(page.find("Color field of gas")).select_by_visible_text("density")
     page.wait_for_exact()

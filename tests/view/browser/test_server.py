@@ -20,7 +20,7 @@ def get(view, path, **headers):
     connection = http.client.HTTPConnection("127.0.0.1", view.port, timeout=PATIENCE)
     connection.request("GET", path, headers=headers)
     answer = connection.getresponse()
-    return answer.status, answer.read().decode(), dict(answer.getheaders())
+    return answer.status, answer.read().decode(errors="replace"), dict(answer.getheaders())
 
 
 def is_exact(number):
@@ -199,6 +199,41 @@ def test_a_frame_of_the_keyframes_has_the_bits_of_the_film(view, run, tmp_path):
     page.receive_until(lambda m: m["type"] == "answer")
     run("movie", tmp_path / "film.toml", "-o", tmp_path / "frame_%04d.png", "--frames", "4:5")
     assert (tmp_path / "frame_0004.png").read_bytes() == exact["file"]
+
+
+def test_a_film_is_drawn_beside_the_pages_and_fetched_with_the_token(view, run, tmp_path):
+    opened = view()
+    page = PageSocket(opened)
+    keyframes = [{"frame": frame, "settings": {"camera.field_of_view": angle}} for frame, angle in ((0, 25), (5, 40))]
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [], "keyframes": keyframes})
+    page.receive_until(is_exact(1))
+    page.send({"type": "make_film", "id": 1, "path": "film.png", "replace": False})
+    assert "expected .mp4" in page.receive_until(lambda m: m.get("id") == 1)[-1]["error"]
+    page.send({"type": "make_film", "id": 2, "path": "film.mp4", "replace": False})
+    told = page.receive_until(lambda m: m.get("state") in ("complete", "failed"))
+    assert told[-1]["state"] == "complete" and told[-1]["frames"] == 6
+    run("movie", tmp_path / "film.toml", "-o", tmp_path / "again.mp4")
+    assert (tmp_path / "film.mp4").read_bytes() == (tmp_path / "again.mp4").read_bytes()
+    number = told[-1]["number"]
+    assert get(opened, f"/{opened.token}/film/{number}")[0] == 200
+    assert get(opened, f"/{opened.token}/film/{number + 1}")[0] == 404
+    assert get(opened, f"/{'0' * 32}/film/{number}")[0] == 403
+    # What is there is replaced only when that is said.
+    page.send({"type": "make_film", "id": 3, "path": "film.mp4", "replace": False})
+    assert page.receive_until(lambda m: m.get("id") == 3)[-1]["saved"] is False
+
+
+def test_a_component_for_other_particles_is_added_and_taken_away(view, real_file):
+    page = PageSocket(view(real_file("lcdm/fmt2_snapshot_006"), "--size", "80x60"))
+    before = page.receive_until(is_exact_of_opened)[-1]["file"]
+    page.send({"type": "component", "id": 1, "particles": "halo"})
+    halo = page.receive_until(lambda m: m.get("id") == 1)[-1]["component"]
+    assert halo["name"] == "halo" and halo["settings"]["palette"]
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [], "added": ["halo"]})
+    assert page.receive_until(is_exact(1))[-1]["file"] != before
+    page.send({"type": "state", "number": 2, "moving": False, "settings": {}, "added": ["halo"],
+               "hidden": [1]})
+    assert page.receive_until(is_exact(2))[-1]["file"] == before
 
 
 def test_a_moment_between_two_snapshots_has_the_bits_of_render(view, run, real_file, tmp_path):

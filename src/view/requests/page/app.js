@@ -65,7 +65,10 @@ class App {
                                  {draw: () => this.filmDialog.open(), plan: () => this.plan.toggle()});
     this.kept = new KeptViews(byId('kept'), this.store, this.picture, `${memory} kept`);
     this.makeControls();
-    if (matchMedia('(max-width: 700px)').matches) this.fold();
+    if (matchMedia('(max-width: 700px)').matches) {
+      this.fold();
+      this.toggleFilm();
+    }
     this.listen();
     this.show();
   }
@@ -152,7 +155,7 @@ class App {
   showError(text) {
     const fields = [...document.querySelectorAll('[data-key]')];
     const field = fields.find((one) => text.includes(one.dataset.key) && one.checkVisibility());
-    if (field) showProblem(field, text);
+    if (field) showProblem(field, text.slice(Math.max(0, text.lastIndexOf('found '))));
     byId('error').textContent = field ? '' : text;
     if (field) this.say('This cannot be drawn');
   }

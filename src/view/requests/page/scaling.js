@@ -16,6 +16,6 @@ export const rounded = (value) => Number(value.toPrecision(4));
 export function readable(value) {
   if (value === null) return '';
   const size = Math.abs(value);
-  const isPlain = size === 0 || (size >= 1e-4 && size < 1e6);
-  return isPlain ? String(Number(value.toPrecision(6))) : value.toExponential(5).replace(/\.?0*e\+?/, 'e');
+  const isPlain = size === 0 || (size >= 1e-3 && size < 1e6);
+  return isPlain ? String(Number(value.toPrecision(6))) : value.toExponential(4).replace(/\.?0*e\+?/, 'e');
 }
