@@ -119,6 +119,7 @@ TEST(ViewScene, LeavesToItsDefaultWhatThePageTakesAway) {
   opened.stereo.emplace();
   opened.finish.title.text = "title";
   opened.components[1].select.where = {"density > 1"};
+  opened.components[1].select.sphere_center = Vec3{{0, 0, 0}};
   opened.components[1].select.sphere_radius = 3;
   opened.components[1].intensity.field = "density";
   PageState state;

@@ -154,10 +154,17 @@ class App {
   // Beside the field that it is of, where there is one.
   showError(text) {
     const fields = [...document.querySelectorAll('[data-key]')];
-    const field = fields.find((one) => text.includes(one.dataset.key) && one.checkVisibility());
-    if (field) showProblem(field, text.slice(Math.max(0, text.lastIndexOf('found '))));
+    const field = fields.find((one) => this.wordsFor(one.dataset.key).some((words) => text.includes(words)) &&
+                                       one.checkVisibility());
+    if (field) showProblem(field, text.replace(/^.*(?=found )|^component [^:]*: /, ''));
     byId('error').textContent = field ? '' : text;
     if (field) this.say('This cannot be drawn');
+  }
+
+  // How messages name a key.
+  wordsFor(key) {
+    const [table, number, ...rest] = key.split('.');
+    return table === 'component' ? [key, `component ${this.components[number]?.name}: ${rest.join('.')}`] : [key];
   }
 
   changed() {
