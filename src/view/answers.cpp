@@ -175,6 +175,12 @@ std::string film_message(const FilmProgress& progress) {
   return text_of(json);
 }
 
+std::string settings_answer(std::uint64_t id, const std::string& settings) {
+  Json json = answer(id);
+  json["settings"] = Json::parse(settings);
+  return text_of(json);
+}
+
 std::string scene_text_answer(std::uint64_t id, const std::string& opened, const std::string& now) {
   Json json = answer(id);
   json["opened"] = opened;

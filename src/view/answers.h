@@ -56,6 +56,8 @@ std::string pick_answer(std::uint64_t id, const Probe& probe);
 std::string places_answer(std::uint64_t id, const std::vector<double>& places);
 // `description`: as describe_component() gives it.
 std::string component_answer(std::uint64_t id, const std::string& description);
+// `settings`: JSON.
+std::string settings_answer(std::uint64_t id, const std::string& settings);
 std::string scene_text_answer(std::uint64_t id, const std::string& opened, const std::string& now);
 // `path`: where it is, or would have been.
 std::string save_answer(std::uint64_t id, SaveResult result, const std::string& path);

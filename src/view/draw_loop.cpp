@@ -309,6 +309,11 @@ std::string DrawLoop::answer_to(PageScene&, std::uint64_t id, const ComponentQue
                           describe_component(component, *drawer_.snapshot_of(drawer_.opened())));
 }
 
+std::string DrawLoop::answer_to(PageScene&, std::uint64_t id, const LookQuestion& question) {
+  const Scene scene = drawer_.with_look(question.look);
+  return settings_answer(id, describe_look(drawer_.opened(), scene));
+}
+
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SceneTextQuestion&) {
   return scene_text_answer(id, portable_scene_text(drawer_.opened()),
                            portable_scene_text(scene.shown));
@@ -325,6 +330,7 @@ std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const MakeFi
   const std::filesystem::path film = std::filesystem::absolute(question.path);
   const std::filesystem::path scene_file = std::filesystem::path(film).replace_extension(".toml");
   const ViewInputs inputs = {drawer_.opened(), scene.all, *drawer_.snapshot_of(scene.shown)};
+  films_.require_idle();
   SaveResult result = check_film_file(film, question.may_replace, inputs);
   if (result == SaveResult::saved)
     result = save_scene(scene_file, question.may_replace, scene.shown, inputs);

@@ -104,6 +104,7 @@ class DrawLoop {
   std::string answer_to(PageScene& scene, std::uint64_t id, const PickQuestion& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const PlacesQuestion& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const ComponentQuestion& question);
+  std::string answer_to(PageScene& scene, std::uint64_t id, const LookQuestion& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const SceneTextQuestion& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const SaveScene& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const SavePicture& question);

@@ -42,15 +42,19 @@ FilmMaker::~FilmMaker() {
   if (thread_.joinable()) thread_.join();
 }
 
+void FilmMaker::require_idle() const {
+  const std::lock_guard lock(mutex_);
+  if (!is_under_way(progress_)) return;
+  throw UsageError("found another film that is being drawn, " + progress_->path.string() +
+                   ", expected none; wait for it, or cancel it");
+}
+
 void FilmMaker::start(const fs::path& scene, const fs::path& film) {
+  require_idle();
   FilmProgress begun;
   begun.path = film;
   {
     const std::lock_guard lock(mutex_);
-    if (is_under_way(progress_)) {
-      throw UsageError("found another film that is being drawn, " + progress_->path.string() +
-                       ", expected none; wait for it, or cancel it");
-    }
     begun.number = progress_ ? progress_->number + 1 : 1;
     progress_ = begun;
   }

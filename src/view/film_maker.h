@@ -37,7 +37,9 @@ class FilmMaker {
   FilmMaker(const FilmMaker&) = delete;
   FilmMaker& operator=(const FilmMaker&) = delete;
 
-  // Draws the film of a scene file. Throws UsageError while another one is being drawn.
+  // Throws UsageError while a film is being drawn.
+  void require_idle() const;
+  // Draws the film of a scene file. Throws as require_idle does.
   void start(const std::filesystem::path& scene, const std::filesystem::path& film);
   // Nothing is left of it, unless it was begun before by others.
   void cancel() { is_cancelled_ = true; }

@@ -186,7 +186,6 @@ void set_policies(AnyResponse& response, std::string_view host) {
   response.set(
       "Content-Security-Policy",
       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
-      "media-src 'self'; "
       "connect-src 'self' " +
           sockets + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
   response.set("Referrer-Policy", "no-referrer");

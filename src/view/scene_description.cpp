@@ -226,6 +226,27 @@ std::string describe_scene(const Scene& opened, const Snapshot& snapshot, bool f
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+namespace {
+
+bool is_of_look(const Scene& opened, const Scene& look, const std::string& key) {
+  const std::optional<std::size_t> component = component_of_key(look, key);
+  if (!component) return key.rfind("finish.", 0) == 0 || key == "image.background";
+  return *component < opened.components.size() &&
+         opened.components[*component].types == look.components[*component].types &&
+         key.find(".select.") == std::string::npos;
+}
+
+}  // namespace
+
+std::string describe_look(const Scene& opened, const Scene& look) {
+  Json settings = settings_json(look);
+  Json own = Json::object();
+  for (const auto& [key, value] : settings.items()) {
+    if (is_of_look(opened, look, key)) own[key] = value;
+  }
+  return own.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::set<std::string> keys_of_keyframes(const Scene& scene) {
   std::set<std::string> keys;
   for (const Keyframe& keyframe : scene.path.keyframes) {

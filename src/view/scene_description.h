@@ -16,6 +16,10 @@ std::string describe_scene(const Scene& opened, const Snapshot& snapshot, bool f
 // The same of a component that may be added to the scene: its keys are without "component.N.".
 std::string describe_component(const Component& component, const Snapshot& snapshot);
 
+// What another look, of which this is the scene, would set of the opened one: its light, and each
+// component that is of the same particles.
+std::string describe_look(const Scene& opened, const Scene& look);
+
 // What keyframes of the scene set, of what a page may set.
 std::set<std::string> keys_of_keyframes(const Scene& scene);
 // The values of such keys, as JSON.

@@ -19,6 +19,7 @@
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
+#include "splotchcl/scene_file.h"
 
 namespace splotchcl::view {
 namespace {
@@ -164,6 +165,14 @@ const Component& ViewDrawer::component_for(const std::string& type) {
   alone.components = {suggest_component(*snapshot_, {*number})};
   alone.components.front().name = type;
   return components_for_[type] = decide(alone).components.front();
+}
+
+Scene ViewDrawer::with_look(const std::string& look) const {
+  const std::optional<Look> known = apply_settings(Scene(), {"look=" + look}).look;
+  Scene suggested = suggest_scene(*snapshot_, known.value_or(Look::press));
+  suggested.snapshot = opened_.snapshot;
+  suggested.read = opened_.read;
+  return decide(suggested);
 }
 
 Scene ViewDrawer::decide(const Scene& scene) const {

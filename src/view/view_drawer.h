@@ -54,6 +54,9 @@ class ViewDrawer {
   // A component for particles that the opened scene may not show, as it is suggested for them, with
   // every number decided. Throws UsageError for a type that there is none of.
   const Component& component_for(const std::string& type);
+  // The snapshot as a look shows it (docs/looks.md), with every number decided. Throws UsageError
+  // for a look that there is none of.
+  Scene with_look(const std::string& look) const;
 
   // A scene with numbers found anew where a page left them open.
   Scene decide(const Scene& scene) const;

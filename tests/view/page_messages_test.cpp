@@ -155,7 +155,7 @@ TEST(PageMessages, WhatIsNoMessageIsRefused) {
 }
 
 TEST(PageMessages, HugeAndDeepOnesAreRefused) {
-  EXPECT_THAT(refusal(std::string(longest_message_bytes + 1, ' ')), HasSubstr("64 KiB"));
+  EXPECT_THAT(refusal(std::string(longest_message_bytes + 1, ' ')), HasSubstr("256 KiB"));
   EXPECT_THAT(refusal(std::string(30000, '[')), HasSubstr("nested"));
 }
 

@@ -218,11 +218,11 @@ Keyframe parse_keyframe(const Json& json) {
   return keyframe;
 }
 
-// A word, as particle types have them.
-std::string type_of_particles(const Json& json) {
-  if (!json.is_string()) refuse("a particle type is no text");
+// A name of particles, or of a look.
+std::string word_of(const Json& json) {
+  if (!json.is_string()) refuse("a name is no text");
   const auto& word = json.get_ref<const std::string&>();
-  if (word.empty() || word.size() > longest_quotation) refuse("a particle type is no word");
+  if (word.empty() || word.size() > longest_quotation) refuse("a name is no word");
   return word;
 }
 
@@ -231,7 +231,7 @@ void parse_added(const Json& json, PageState& state) {
   if (added == json.end()) return;
   if (!added->is_array() || added->size() > most_added) refuse("added is no list of at most 32");
   for (const Json& type : *added)
-    state.added.push_back(type_of_particles(type));
+    state.added.push_back(word_of(type));
 }
 
 void parse_film(const Json& json, PageState& state) {
@@ -282,7 +282,8 @@ decltype(PageQuestion::what) parse_question(const std::string& name, const Json&
   }
   if (name == "pick") return PickQuestion{share_of(json, "x"), share_of(json, "y")};
   if (name == "places") return PlacesQuestion{};
-  if (name == "component") return ComponentQuestion{type_of_particles(member(json, "particles"))};
+  if (name == "component") return ComponentQuestion{word_of(member(json, "particles"))};
+  if (name == "look") return LookQuestion{word_of(member(json, "look"))};
   if (name == "scene_text") return SceneTextQuestion{};
   if (name == "save_scene") return SaveScene{path_of(json), flag_of(json, "replace")};
   if (name == "save_picture") return SavePicture{path_of(json), flag_of(json, "replace")};
@@ -319,7 +320,7 @@ bool is_settable(std::string_view key) {
 }
 
 PageMessage parse_page_message(std::string_view text) {
-  if (text.size() > longest_message_bytes) refuse("it is longer than 64 KiB");
+  if (text.size() > longest_message_bytes) refuse("it is longer than 256 KiB");
   // Deep nesting would need much stack to take apart; nothing here nests more than twice.
   int depth = 0, deepest = 0;
   for (const char c : text) {

@@ -50,6 +50,10 @@ struct PlacesQuestion {};
 struct ComponentQuestion {
   std::string type;
 };
+// What a look would set.
+struct LookQuestion {
+  std::string look;
+};
 // The scene as text, and that which was opened.
 struct SceneTextQuestion {};
 struct SaveScene {
@@ -70,7 +74,7 @@ struct MakeFilm {
 // What is answered once, by the page's number for it.
 struct PageQuestion {
   std::uint64_t id = 0;
-  std::variant<HistogramQuestion, PickQuestion, PlacesQuestion, ComponentQuestion,
+  std::variant<HistogramQuestion, PickQuestion, PlacesQuestion, ComponentQuestion, LookQuestion,
                SceneTextQuestion, SaveScene, SavePicture, MakeFilm>
       what;
 };
@@ -85,7 +89,7 @@ std::vector<std::string> settable_keys(std::size_t components);
 bool is_settable(std::string_view key);
 
 // No message is longer.
-constexpr std::size_t longest_message_bytes = 64 * 1024;
+constexpr std::size_t longest_message_bytes = 256 * 1024;
 
 // Throws UsageError for what is no message: not JSON, a key that a page may not set, a value of
 // another kind than the key's, anything missing or too much.

@@ -375,6 +375,35 @@ def test_glasses_of_red_and_cyan_and_words_change_the_picture(page):
     assert page.picture() in pictures
 
 
+def test_a_look_sets_light_and_palettes(page):
+    before = page.picture()
+    Select(page.find("Look")).select_by_visible_text("paper")
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: page.script("app.store.past.length === 1"))
+    page.wait_for_exact()
+    assert page.setting("image.background") == [1, 1, 1]
+    assert page.picture() != before
+    page.find("Undo").click()
+    page.wait_for_exact()
+    assert page.picture() == before
+
+
+def test_a_film_goes_through_the_time_of_a_series(browser, view, real_file, tmp_path):
+    snapshots = [str(real_file(f"lcdm/fmt2_snapshot_{number:03d}")) for number in (4, 5, 6)]
+    scene = tmp_path / "series.toml"
+    scene.write_text(f"look = 'press'\n[time]\nsnapshots = {json.dumps(snapshots)}\n[image]\nsize = [160, 120]\n")
+    page = Page(browser, view(scene))
+    Select(page.find("Suggested films")).select_by_visible_text("Through time")
+    first, last = page.script("[0, app.film.lastFrame]")
+    pictures = []
+    for frame in (first, last):
+        page.script(f"app.film.goTo({frame})")
+        page.wait_for_exact()
+        pictures.append(page.picture())
+    assert pictures[0] != pictures[1]
+    assert page.find("Time index").get_attribute("value") == "2"
+    browser.get("about:blank")
+
+
 def test_states_are_kept_compared_and_linked_to(page):
     start = page.picture()
     page.find("Keep this view").click()

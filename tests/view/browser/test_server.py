@@ -114,7 +114,7 @@ def test_messages_that_are_none_are_answered_with_an_error(view, message):
 def test_a_huge_message_ends_its_own_page_only(view):
     opened = view()
     page, other = PageSocket(opened), PageSocket(opened)
-    page.send("x" * 100000)
+    page.send("x" * 400000)
     with pytest.raises(ConnectionError):
         while True:
             page.receive()
@@ -221,6 +221,23 @@ def test_a_film_is_drawn_beside_the_pages_and_fetched_with_the_token(view, run, 
     # What is there is replaced only when that is said.
     page.send({"type": "make_film", "id": 3, "path": "film.mp4", "replace": False})
     assert page.receive_until(lambda m: m.get("id") == 3)[-1]["saved"] is False
+
+
+def test_ctrl_c_and_sigterm_end_it_while_it_draws_a_film(view, tmp_path):
+    for ending in (signal.SIGINT, signal.SIGTERM):
+        opened = view()
+        page = PageSocket(opened)
+        keyframes = [{"frame": frame, "settings": {"camera.field_of_view": angle}}
+                     for frame, angle in ((0, 25), (9000, 40))]
+        page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [], "keyframes": keyframes})
+        page.send({"type": "make_film", "id": 1, "path": "long.mp4", "replace": True})
+        page.receive_until(lambda m: m.get("state") == "drawing" and m["done"] > 0)
+        page.send({"type": "make_film", "id": 2, "path": "other.mp4", "replace": False})
+        assert "another film" in page.receive_until(lambda m: m.get("id") == 2)[-1]["error"]
+        opened.process.send_signal(ending)
+        opened.process.communicate(timeout=20)
+        assert opened.process.returncode == 0
+        assert not (tmp_path / "long.mp4").exists() and not (tmp_path / "other.toml").exists()
 
 
 def test_a_component_for_other_particles_is_added_and_taken_away(view, real_file):

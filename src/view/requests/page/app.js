@@ -80,7 +80,7 @@ class App {
     const move = (kind, x, y) => this.gestures.move(kind, x, y);
     this.components = this.store.components.map(
         (described, number) => new ComponentControls(number, described, this.palettes, this.store, this.link));
-    this.controls = [cameraControls(this.store, move), ...this.components, lightControls(this.store),
+    this.controls = [cameraControls(this.store, move), ...this.components, lightControls(this.store, (look) => this.takeLook(look)),
                      pictureControls(this.store, this.fit)];
     if (opened.times) this.controls.splice(1, 0, timeControls(this.store, opened.times));
     byId('controls').replaceChildren(...this.controls.map((controls) => controls.element));
@@ -90,6 +90,14 @@ class App {
     this.active = this.components[0];
     for (const component of this.components) {
       component.element.addEventListener('focusin', () => { this.active = component; });
+    }
+  }
+
+  async takeLook(look) {
+    try {
+      this.store.change((await this.link.ask({type: 'look', look})).settings);
+    } catch (error) {
+      this.showError(error.message);
     }
   }
 

@@ -108,8 +108,12 @@ export function timeControls(store, [first, last]) {
   return controls;
 }
 
-export function lightControls(store) {
+// `takeLook` has the program suggest what a look sets.
+export function lightControls(store, takeLook) {
   const controls = new Controls('Light', store);
+  const look = select('Look', [['', 'choose a look'], 'press', 'classic', 'paper'], (name) => name && takeLook(name));
+  controls.element.append(row('Look', wide(look)));
+  controls.shows.push(() => { look.value = ''; });
   const key = 'finish.exposure';
   const slider = element('input', {type: 'range', min: -exposureStops, max: exposureStops, step: 0.05,
                                    'aria-label': 'Exposure slider'});
