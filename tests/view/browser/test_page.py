@@ -375,6 +375,25 @@ def test_glasses_of_red_and_cyan_and_words_change_the_picture(page):
     assert page.picture() in pictures
 
 
+def test_a_sphere_that_clips_is_dragged_by_its_handles(page):
+    page.browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true;")
+    before = page.picture()
+    page.find("Clip gas to a sphere").click()
+    page.wait_for_exact()
+    assert page.picture() != before
+    center, radius = (page.setting(f"component.0.select.sphere.{key}") for key in ("center", "radius"))
+    middle, rim = page.browser.find_elements(By.CSS_SELECTOR, "#clips .grip")
+    ActionChains(page.browser).drag_and_drop_by_offset(rim, 30, 0).perform()
+    page.wait_for_exact()
+    assert page.setting("component.0.select.sphere.radius") < radius
+    ActionChains(page.browser).drag_and_drop_by_offset(middle, 20, 10).perform()
+    page.wait_for_exact()
+    assert page.setting("component.0.select.sphere.center") != center
+    page.find("Clip gas to a sphere").click()
+    page.wait_for_exact()
+    assert page.picture() == before
+
+
 def test_a_look_sets_light_and_palettes(page):
     before = page.picture()
     Select(page.find("Look")).select_by_visible_text("paper")

@@ -1,5 +1,6 @@
 // Puts the page together: what the controls and the pointer change goes to the program, and what
 // it draws is shown.
+import {ClipHandles} from './clip_handles.js';
 import {ComponentControls} from './component_controls.js';
 import {showProblem} from './elements.js';
 import {Film} from './film.js';
@@ -55,6 +56,7 @@ class App {
     this.gestures = new Gestures(byId('view'), this.picture, this.store, (place) => this.pick(place));
     this.probe = new ProbeTool(byId('probe'), byId('probed'), byId('view'), this.picture, this.store,
                                (place) => this.link.ask({type: 'pick', ...place}));
+    this.clips = new ClipHandles(byId('clips'), this.picture, this.store);
     this.fit = new WindowFit(this.store);
     this.save = new SaveDialog(this.link, opened, byId('picture'));
     this.film = new Film(this.store, (frame, isPlaying) => this.showFilm(frame, isPlaying));
@@ -199,6 +201,7 @@ class App {
     for (const controls of this.controls) controls.show();
     this.timeline.show();
     this.plan.show();
+    this.clips.show();
     for (const [id, word, name] of [['undo', 'Undo', this.store.undoName], ['redo', 'Redo', this.store.redoName]]) {
       byId(id).disabled = name === '';
       byId(id).title = name === '' ? word : `${word}: ${name}`;
@@ -224,14 +227,13 @@ class App {
     this.filmDialog.secondsPerFrame = header.seconds;
     byId('error').textContent = header.notes.join('\n');
     this.say(`Exact picture, drawn in ${header.seconds.toFixed(2)} s`);
-    byId('status').title = `No pixel is farther than ${this.store.settings.tolerance} of white from the reference`;
   }
 
-  // How many come in a second, for those who ask by pointing at the status.
   countFrame() {
     const now = performance.now();
     this.frameTimes = [...(this.frameTimes ?? []).filter((time) => now - time < 1000), now];
-    byId('status').title = `${this.frameTimes.length} frames in the last second`;
+    byId('rate').textContent = `${this.frameTimes.length} frames in the last second, exact to ` +
+        `${this.store.settings.tolerance} of white`;
   }
 
   async pick(place) {
@@ -255,6 +257,7 @@ class App {
       v: () => this.kept.keep(),
       b: () => this.swap(),
       i: () => this.probe.toggle(),
+      t: () => { byId('rate').hidden = !byId('rate').hidden; },
       ' ': () => this.film.isFilm && this.film.togglePlay(),
       o: () => this.fold(),
       s: () => this.save.open('save_scene'),

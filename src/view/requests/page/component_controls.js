@@ -143,7 +143,7 @@ export class ComponentControls {
     this.where.dataset.key = this.key('select.where');
     const clip = (name) => this.key(`select.sphere.${name}`);
     const {box, label} = checkbox('Clip to a sphere', `Clip ${this.name} to a sphere`, (isOn) => this.store.change(
-      isOn ? {...this.sphereHere(), [clip('radius')]: this.reach / 3} : {[clip('center')]: null, [clip('radius')]: null}));
+      isOn ? {...this.sphereHere(), [clip('radius')]: Number((this.reach / 5).toPrecision(3))} : {[clip('center')]: null, [clip('radius')]: null}));
     this.clips = box;
     this.radius = numberInput(`Radius of the sphere of ${this.name}`, (value, isMoving) =>
       this.set('select.sphere.radius', value, {gesture: clip('radius'), isMoving}), {min: 1e-30});
