@@ -170,6 +170,25 @@ bool sets(const PageState& state, const char* key) {
                      [key](const PageSetting& setting) { return setting.key == key; });
 }
 
+bool moves_camera(const Keyframe& keyframe) {
+  return std::any_of(keyframe.values.begin(), keyframe.values.end(),
+                     [](const auto& value) { return value.first.rfind("camera.", 0) == 0; });
+}
+
+// The film is as long as these say. They take the place of another path where both would move the
+// camera.
+void set_keyframes(Scene& scene, const std::vector<Keyframe>& keyframes) {
+  if (std::any_of(keyframes.begin(), keyframes.end(), moves_camera)) {
+    PathSettings own;
+    own.is_smooth = scene.path.is_smooth;
+    own.look = scene.path.look;
+    own.max_turn_rate = scene.path.max_turn_rate;
+    scene.path = own;
+  }
+  scene.path.keyframes = keyframes;
+  scene.movie.frames.reset();
+}
+
 }  // namespace
 
 Scene with_components(Scene scene, const std::vector<Component>& added) {
@@ -195,7 +214,7 @@ Scene scene_of(const Scene& opened, const Scene* suggested, const PageState& sta
       throw UsageError(key + ": found no value, expected one");
     }
   }
-  if (state.keyframes) scene.path.keyframes = *state.keyframes;
+  if (state.keyframes) set_keyframes(scene, *state.keyframes);
   check_names(opened, scene);
   const std::int64_t pixels = std::int64_t{scene.image.width} * scene.image.height;
   if (pixels > most_pixels) {

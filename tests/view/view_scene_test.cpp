@@ -141,6 +141,18 @@ TEST(ViewScene, ComponentsThatAreAddedHaveNamesOfTheirOwn) {
   EXPECT_EQ(scene.components[3].name, "halo 2");
 }
 
+TEST(ViewScene, KeyframesOfTheCameraTakeThePlaceOfAnotherPath) {
+  Scene opened = opened_scene();
+  opened.path.orbit.emplace();
+  opened.movie.frames = 250;
+  PageState state;
+  state.keyframes = {{0, {{"component.0.brightness", "1"}}}};
+  EXPECT_TRUE(scene_of(opened, nullptr, state).path.orbit);
+  state.keyframes->push_back({5, {{"camera.field_of_view", "20"}}});
+  EXPECT_FALSE(scene_of(opened, nullptr, state).path.orbit);
+  EXPECT_FALSE(scene_of(opened, nullptr, state).movie.frames);
+}
+
 TEST(ViewScene, KeyframesFollowTheComponentsThatStay) {
   Scene scene = opened_scene();
   scene.path.keyframes = {{0, {{"component.0.brightness", "1"}, {"component.1.brightness", "2"}}},

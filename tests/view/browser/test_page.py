@@ -394,6 +394,21 @@ def test_a_sphere_that_clips_is_dragged_by_its_handles(page):
     assert page.picture() == before
 
 
+def test_a_box_that_clips_has_two_corners(page):
+    page.browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true;")
+    before = page.picture()
+    page.find("Clip gas to a box").click()
+    page.wait_for_exact()
+    assert page.picture() != before
+    low, high = (page.setting(f"component.0.select.box.{end}") for end in ("min", "max"))
+    page.type_number("Highest x of the box of gas", (low[0] + high[0]) / 2)
+    page.wait_for_exact()
+    assert page.setting("component.0.select.box.max") == [(low[0] + high[0]) / 2, *high[1:]]
+    page.find("Clip gas to a box").click()
+    page.wait_for_exact()
+    assert page.picture() == before
+
+
 def test_a_look_sets_light_and_palettes(page):
     before = page.picture()
     Select(page.find("Look")).select_by_visible_text("paper")

@@ -129,6 +129,7 @@ class App {
     byId('help').onclick = () => byId('help-dialog').showModal();
     byId('view').addEventListener('keydown', (event) => this.pressLetter(event));
     document.addEventListener('keydown', (event) => this.pressShortcut(event));
+    window.addEventListener('hashchange', () => location.reload());
   }
 
   // The controls, away or back.
@@ -180,6 +181,7 @@ class App {
   changed() {
     byId('error').textContent = '';
     for (const field of document.querySelectorAll('[data-key][aria-invalid]')) showProblem(field, '');
+    if (location.hash !== '') history.replaceState(null, '', location.pathname);
     this.say('Preview');
     this.film.leave();
     this.show();
@@ -232,7 +234,7 @@ class App {
   countFrame() {
     const now = performance.now();
     this.frameTimes = [...(this.frameTimes ?? []).filter((time) => now - time < 1000), now];
-    byId('rate').textContent = `${this.frameTimes.length} frames in the last second, exact to ` +
+    byId('rate').textContent = `Frames in the last second: ${this.frameTimes.length}; exact to ` +
         `${this.store.settings.tolerance} of white`;
   }
 

@@ -1,4 +1,5 @@
 // The controls of one component.
+import {ClipControls} from './clip_controls.js';
 import {button, checkbox, element, group, more, row, select, textInput, wide} from './elements.js';
 import {numberInput} from './number_input.js';
 import {PaletteList} from './palette_list.js';
@@ -141,24 +142,8 @@ export class ComponentControls {
     this.where = textInput(`Only ${this.name} where`, (text) => this.set('select.where', text === '' ? null : text));
     this.where.placeholder = 'such as temperature > 1e5';
     this.where.dataset.key = this.key('select.where');
-    const clip = (name) => this.key(`select.sphere.${name}`);
-    const {box, label} = checkbox('Clip to a sphere', `Clip ${this.name} to a sphere`, (isOn) => this.store.change(
-      isOn ? {...this.sphereHere(), [clip('radius')]: Number((this.reach / 5).toPrecision(3))} : {[clip('center')]: null, [clip('radius')]: null}));
-    this.clips = box;
-    this.radius = numberInput(`Radius of the sphere of ${this.name}`, (value, isMoving) =>
-      this.set('select.sphere.radius', value, {gesture: clip('radius'), isMoving}), {min: 1e-30});
-    this.radius.dataset.key = clip('radius');
-    this.radiusRow = row('Radius', this.radius, button('Center here', `Center the sphere of ${this.name} here`,
-                                                       () => this.store.change(this.sphereHere())));
-    this.more.append(row('Only where', wide(this.where)), label, this.radiusRow);
-  }
-
-  // About what the camera looks at.
-  sphereHere() { return {[this.key('select.sphere.center')]: this.store.settings['camera.look_at']}; }
-
-  get reach() {
-    const {'camera.position': here, 'camera.look_at': target} = this.store.settings;
-    return Number(Math.hypot(...here.map((x, i) => x - target[i])).toPrecision(3));
+    this.clips = new ClipControls(this.number, this.name, this.store);
+    this.more.append(row('Only where', wide(this.where)), ...this.clips.elements);
   }
 
   show() {
@@ -196,10 +181,7 @@ export class ComponentControls {
   showSelection() {
     const where = this.value('select.where');
     if (document.activeElement !== this.where) this.where.value = Array.isArray(where) ? where.join(' and ') : where ?? '';
-    const radius = this.value('select.sphere.radius') ?? null;
-    this.clips.checked = radius !== null;
-    this.radiusRow.hidden = radius === null;
-    this.showNumber(this.radius, radius);
+    this.clips.show();
   }
 
   showAbsorption() {

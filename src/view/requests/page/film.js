@@ -19,7 +19,7 @@ export class Film extends EventTarget {
 
   get keyframes() { return this.store.state.keyframes; }
   get perSecond() { return this.store.settings['movie.frames_per_second']; }
-  get lastFrame() { return Math.max(0, ...this.keyframes.map(({frame, dwell}) => Math.ceil(frame + (dwell ?? 0)))); }
+  get lastFrame() { return Math.max(0, ...this.keyframes.map(({frame}) => Math.ceil(frame))); }
   get frames() { return this.lastFrame + 1; }
   get isFilm() { return this.keyframes.length > 1; }
   get isPlaying() { return this.timer !== null; }
@@ -37,7 +37,7 @@ export class Film extends EventTarget {
   // changed since the last one moves from now on.
   add() {
     const {settings} = this.store;
-    const changed = changedKeys(this.held, settings);
+    const changed = this.keyframes.length === 0 ? [] : changedKeys(this.held, settings);
     const keys = movableKeys(this.keyframes, settings, changed);
     const old = (key) => this.held[key];
     const earlier = this.keyframes.map((keyframe) => {
@@ -57,6 +57,12 @@ export class Film extends EventTarget {
   placeOfNext() {
     if (this.keyframes.length === 0) return 0;
     return this.place ?? this.lastFrame + Math.round(secondsBetween * this.perSecond);
+  }
+
+  replace(keyframes) {
+    this.set(keyframes);
+    this.held = {...this.store.settings};
+    this.select(null);
   }
 
   change(number, change) {

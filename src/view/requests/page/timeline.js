@@ -55,8 +55,7 @@ export class Timeline {
   takeSuggestion() {
     const make = suggestions(this.scene).get(this.suggest.value);
     const last = Math.round(suggestedSeconds * this.film.perSecond) - 1;
-    if (make) this.film.set(make(this.scene, last));
-    this.film.select(null);
+    if (make) this.film.replace(make(this.scene, last));
     this.suggest.value = '';
   }
 
@@ -174,9 +173,15 @@ export class Timeline {
     };
   }
 
+  // Up to the next one.
+  mostDwell(i) {
+    const next = this.film.keyframes[i + 1];
+    return next ? Math.max(0, Math.floor(next.frame - this.film.keyframes[i].frame) - 1) : 0;
+  }
+
   showChosen() {
     const i = this.film.selected, keyframe = this.film.keyframes[i];
-    const shown = JSON.stringify([i, keyframe, this.store.state.added]);
+    const shown = JSON.stringify([i, keyframe, this.film.keyframes[i + 1]?.frame, this.store.state.added]);
     if (shown === this.shownChosen) return;
     this.shownChosen = shown;
     if (!keyframe) return this.chosen.replaceChildren();
@@ -186,7 +191,7 @@ export class Timeline {
     frame.value = readable(keyframe.frame);
     const dwell = numberInput(`Frames that keyframe ${number} stays`,
                               (value, isMoving) => isMoving || this.film.change(i, {dwell: value}),
-                              {min: 0, max: 100000, step: 1, isWhole: true});
+                              {min: 0, max: this.mostDwell(i), step: 1, isWhole: true});
     dwell.value = readable(keyframe.dwell ?? 0);
     const eases = checkbox('Slow down here', `Slow down at keyframe ${number}`, (ease) => this.film.change(i, {ease}));
     eases.box.checked = keyframe.ease || keyframe.dwell > 0;
