@@ -144,6 +144,12 @@ TEST(PageMessages, WordsCannotBecomeOtherToml) {
     EXPECT_THAT(refusal_of_setting("component.0.palette", word), HasSubstr("plain characters"));
 }
 
+TEST(PageMessages, TextsMayHaveQuotesAndStayOneString) {
+  EXPECT_EQ(state_of(R"({"finish.title.text":"a \"b\" \\ c"})").settings[0].value,
+            R"("a \"b\" \\ c")");
+  EXPECT_NE(refusal_of_setting("finish.title.text", R"("a\nb = 1")"), "");
+}
+
 TEST(PageMessages, WhatIsNoMessageIsRefused) {
   for (const char* const text :
        {"", "x", "[]", "{}", "null", R"({"type":3})", R"({"type":"other","id":1})",

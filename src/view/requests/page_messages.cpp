@@ -23,7 +23,7 @@ constexpr std::size_t longest_word = 1000;
 constexpr std::size_t longest_quotation = 200;
 constexpr std::size_t longest_path = 4096;
 
-enum class Kind { number, numbers, word, word_or_number, flag };
+enum class Kind { number, numbers, word, text, word_or_number, flag };
 
 struct PageKey {
   std::string_view key;
@@ -56,8 +56,8 @@ constexpr std::array page_keys = {
     PageKey{"finish.white_balance", Kind::number},
     PageKey{"finish.highlights", Kind::number},
     PageKey{"finish.fade", Kind::number},
-    PageKey{"finish.title.text", Kind::word},
-    PageKey{"finish.caption.text", Kind::word},
+    PageKey{"finish.title.text", Kind::text},
+    PageKey{"finish.caption.text", Kind::text},
     PageKey{"finish.color_bar.show", Kind::flag},
     PageKey{"finish.scale_bar.show", Kind::flag},
 };
@@ -131,6 +131,19 @@ std::string quoted_word(const std::string& key, const Json& value) {
   return '"' + word + '"';
 }
 
+// What people read: any characters but those that are not shown.
+std::string quoted_text(const std::string& key, const Json& value) {
+  const auto& text = value.get_ref<const std::string&>();
+  std::string quoted;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) refuse(key + " has a control character");
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  if (text.empty() || text.size() > longest_word) refuse(key + " has not from 1 to 1000 bytes");
+  return '"' + quoted + '"';
+}
+
 std::string number_text(const std::string& key, const Json& value) {
   const auto number = value.get<double>();
   if (!std::isfinite(number)) refuse(key + " is not finite");
@@ -155,6 +168,7 @@ std::string toml_text(const std::string& key, const Json& value) {
   const bool takes_word = kind == Kind::word || kind == Kind::word_or_number;
   if (takes_number && value.is_number()) return number_text(key, value);
   if (takes_word && value.is_string()) return quoted_word(key, value);
+  if (kind == Kind::text && value.is_string()) return quoted_text(key, value);
   if (kind == Kind::numbers && value.is_array()) return numbers_text(key, value);
   if (kind == Kind::flag && value.is_boolean()) return value.get<bool>() ? "true" : "false";
   refuse(fmt::format("{} has {}, which is not its kind of value", key, value.type_name()));

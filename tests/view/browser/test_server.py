@@ -240,14 +240,20 @@ def test_ctrl_c_and_sigterm_end_it_while_it_draws_a_film(view, tmp_path):
         assert not (tmp_path / "long.mp4").exists() and not (tmp_path / "other.toml").exists()
 
 
-def test_a_component_for_other_particles_is_added_and_taken_away(view, real_file):
+def test_a_component_for_other_particles_is_added_and_taken_away(view, run, real_file, tmp_path):
     page = PageSocket(view(real_file("lcdm/fmt2_snapshot_006"), "--size", "80x60"))
     before = page.receive_until(is_exact_of_opened)[-1]["file"]
     page.send({"type": "component", "id": 1, "particles": "halo"})
     halo = page.receive_until(lambda m: m.get("id") == 1)[-1]["component"]
     assert halo["name"] == "halo" and halo["settings"]["palette"]
     page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [], "added": ["halo"]})
-    assert page.receive_until(is_exact(1))[-1]["file"] != before
+    added = page.receive_until(is_exact(1))[-1]["file"]
+    assert added != before
+    (tmp_path / "page.png").write_bytes(added)
+    page.send({"type": "save_scene", "id": 2, "path": "saved.toml", "replace": False})
+    page.receive_until(lambda m: m.get("id") == 2)
+    run("render", tmp_path / "saved.toml", "-o", tmp_path / "rendered.png")
+    run("compare", tmp_path / "page.png", tmp_path / "rendered.png", "--limit", 0)
     page.send({"type": "state", "number": 2, "moving": False, "settings": {}, "added": ["halo"],
                "hidden": [1]})
     assert page.receive_until(is_exact(2))[-1]["file"] == before
