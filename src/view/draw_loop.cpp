@@ -227,25 +227,39 @@ std::vector<Component> DrawLoop::added_components(const PageState& state) {
   return added;
 }
 
-DrawLoop::PageScene& DrawLoop::scene_of_page(const Work& work) {
-  std::optional<PageScene>& known = work.page->scene;
-  if (known && known->input == work.input) return *known;
+DrawLoop::PageScene DrawLoop::make_scene(const PageState& state) {
   PageScene scene;
-  scene.input = work.input;
-  const std::vector<Component> added = added_components(work.state);
+  scene.made_from = state.scene;
+  const std::vector<Component> added = added_components(state);
   scene.opened = with_components(drawer_.opened(), added);
   std::optional<Scene> suggested;
   if (drawer_.suggested() != nullptr) suggested = with_components(*drawer_.suggested(), added);
-  scene.all = scene_of(scene.opened, suggested ? &*suggested : nullptr, work.state);
+  scene.all = scene_of(scene.opened, suggested ? &*suggested : nullptr, state);
   scene.open = open_keys(scene.all);
   scene.all = drawer_.decide(scene.all);
-  scene.shown = without_hidden(scene.all, work.state.hidden);
-  scene.drawn = work.state.frame ? at_frame(scene.shown, *work.state.frame) : scene.shown;
-  if (work.state.frame) {
-    scene.film_values =
-        describe_values(at_frame(scene.all, *work.state.frame), keys_of_keyframes(scene.all));
+  scene.shown = without_hidden(scene.all, state.hidden);
+  return scene;
+}
+
+// A film that plays changes nothing but its frame.
+DrawLoop::PageScene& DrawLoop::scene_of_page(const Work& work) {
+  std::optional<PageScene>& known = work.page->scene;
+  if (known && known->input == work.input) return *known;
+  if (!known || known->made_from != work.state.scene) known = make_scene(work.state);
+  known->input = 0;  // until all is there
+  known->drawn = known->shown;
+  known->film_values = "{}";
+  if (const std::optional<int> frame = work.state.frame) {
+    if (!known->film) {
+      known->film = std::make_shared<FilmPath>(film_of(known->shown));
+      known->film_of_all = std::make_shared<FilmPath>(film_of(known->all));
+    }
+    known->drawn = at_frame(*known->film, known->shown, *frame);
+    known->film_values = describe_values(at_frame(*known->film_of_all, known->all, *frame),
+                                         keys_of_keyframes(known->all));
   }
-  return known.emplace(std::move(scene));
+  known->input = work.input;
+  return *known;
 }
 
 void DrawLoop::draw(const Work& work, const FrameScheduler::Task& task) {

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "film/path/film_path.h"
 #include "view/film_maker.h"
 #include "view/frame_scheduler.h"
 #include "view/requests/page_messages.h"
@@ -62,11 +63,14 @@ class DrawLoop {
   // A page's state as a scene.
   struct PageScene {
     std::uint64_t input = 0;
-    Scene opened;                    // with the components that the page has added
-    std::set<std::string> open;      // keys that the state leaves to data or picture
-    Scene all;                       // with components that are off
-    Scene shown;                     // without them
-    Scene drawn;                     // at the film's frame, where that is shown
+    Scene opened;                // with the components that the page has added
+    std::set<std::string> open;  // keys that the state leaves to data or picture
+    Scene all;                   // with components that are off
+    Scene shown;                 // without them
+    Scene drawn;                 // at the film's frame, where that is shown
+    // Of `shown` and of `all`, once they are asked for.
+    std::shared_ptr<const FilmPath> film, film_of_all;
+    std::string made_from;           // PageState::scene
     std::string film_values = "{}";  // as FrameHeader has them
   };
   struct Page {
@@ -111,6 +115,7 @@ class DrawLoop {
   std::string answer_to(PageScene& scene, std::uint64_t id, const MakeFilm& question);
   void tell_all(const std::string& message);
   std::vector<Component> added_components(const PageState& state);
+  PageScene make_scene(const PageState& state);
   PageScene& scene_of_page(const Work& work);
 
   ViewDrawer drawer_;  // of the drawing thread, once that runs

@@ -14,7 +14,6 @@
 #include "common/words.h"
 #include "film/follow/find_followed.h"
 #include "film/movie/encoder.h"
-#include "film/path/film_path.h"
 #include "open_scene/input_files.h"
 #include "scene_file/file_names.h"
 #include "scene_file/suggested.h"
@@ -287,14 +286,17 @@ Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden) {
   return scene;
 }
 
-Scene at_frame(const Scene& scene, int frame) {
+FilmPath film_of(const Scene& scene) {
   std::vector<std::string> ignored;
-  const FilmPath path(scene, ignored, find_followed);
-  if (frame >= path.frame_count()) {
+  return FilmPath(scene, ignored, find_followed);
+}
+
+Scene at_frame(const FilmPath& film, const Scene& scene, int frame) {
+  if (frame >= film.frame_count()) {
     throw UsageError(
-        fmt::format("the film: found frame {}, expected one below {}", frame, path.frame_count()));
+        fmt::format("the film: found frame {}, expected one below {}", frame, film.frame_count()));
   }
-  return path.scene_at(scene, frame);
+  return film.scene_at(scene, frame);
 }
 
 std::set<std::string> open_keys(const Scene& scene) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "film/path/film_path.h"
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
@@ -39,8 +40,10 @@ GivenWay given_way(const Scene& opened, const PageState& state, const Scene& sce
 // where all are.
 Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden);
 
+// The frames of its film.
+FilmPath film_of(const Scene& scene);
 // As it is at a frame of its film. Throws UsageError where it has no such frame.
-Scene at_frame(const Scene& scene, int frame);
+Scene at_frame(const FilmPath& film, const Scene& scene, int frame);
 
 // The keys of numbers that the scene leaves to the data or to the picture. It has all components.
 std::set<std::string> open_keys(const Scene& scene);

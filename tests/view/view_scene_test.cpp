@@ -106,12 +106,12 @@ TEST(ViewScene, AFrameOfTheFilmIsBetweenItsKeyframes) {
   PageState state;
   state.keyframes = {{0, {{"camera.field_of_view", "20"}}}, {10, {{"camera.field_of_view", "40"}}}};
   const Scene scene = scene_of(opened_scene(), nullptr, state);
-  EXPECT_EQ(*at_frame(scene, 0).camera->field_of_view_degrees, 20);
-  EXPECT_EQ(*at_frame(scene, 10).camera->field_of_view_degrees, 40);
-  const double between = *at_frame(scene, 4).camera->field_of_view_degrees;
+  EXPECT_EQ(*at_frame(film_of(scene), scene, 0).camera->field_of_view_degrees, 20);
+  EXPECT_EQ(*at_frame(film_of(scene), scene, 10).camera->field_of_view_degrees, 40);
+  const double between = *at_frame(film_of(scene), scene, 4).camera->field_of_view_degrees;
   EXPECT_GT(between, 20);
   EXPECT_LT(between, 40);
-  EXPECT_THROW(at_frame(scene, 11), UsageError);
+  EXPECT_THROW(at_frame(film_of(scene), scene, 11), UsageError);
 }
 
 TEST(ViewScene, LeavesToItsDefaultWhatThePageTakesAway) {

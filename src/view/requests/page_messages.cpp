@@ -287,6 +287,10 @@ PageState parse_state(const Json& json) {
   }
   parse_added(json, state);
   parse_film(json, state);
+  Json scene = json;
+  for (const char* const name : {"number", "moving", "frame"})
+    scene.erase(name);
+  state.scene = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
   return state;
 }
 

@@ -30,6 +30,7 @@ struct PageState {
   std::set<std::size_t> hidden;    // components that are off
   std::optional<std::vector<Keyframe>> keyframes;  // instead of the scene's own
   std::optional<int> frame;  // of the film that these make, instead of the scene as it stands
+  std::string scene;         // the same for states of which only the frame and what is above differ
 };
 
 struct FrameAcknowledged {
