@@ -65,7 +65,8 @@ class App {
     this.plan = new FilmPlan(byId('plan'), this.store, this.film, this.link);
     this.timeline = new Timeline(byId('film'), this.store, this.film,
                                  {draw: () => this.filmDialog.open(), plan: () => this.plan.toggle()});
-    this.kept = new KeptViews(byId('kept'), this.store, this.picture, `${memory} kept`);
+    this.kept = new KeptViews(byId('kept'), this.store, this.picture, `${memory} kept`,
+                              (text) => this.showError(text));
     this.makeControls();
     if (matchMedia('(max-width: 700px)').matches) {
       this.fold();

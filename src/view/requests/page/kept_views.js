@@ -4,9 +4,12 @@ import {element} from './elements.js';
 
 const thumbnail = {width: 112, height: 70};
 const mostKept = 24;
+const full = 'No more views can be kept, expected at most 24 that the browser has room for: remove one first';
 
 export class KeptViews {
-  constructor(place, store, picture, memory) {
+  // `refuse` tells why a view is not kept.
+  constructor(place, store, picture, memory, refuse) {
+    this.refuse = refuse;
     this.store = store;
     this.picture = picture;
     this.memory = memory;
@@ -21,8 +24,7 @@ export class KeptViews {
 
   keep() {
     const view = {state: this.store.copy(), known: this.store.known, picture: this.makeThumbnail()};
-    this.kept = [...this.kept, view].slice(-mostKept);
-    this.save();
+    this.save([...this.kept, view]);
   }
 
   makeThumbnail() {
@@ -40,12 +42,17 @@ export class KeptViews {
   }
 
   remove(view) {
-    this.kept = this.kept.filter((other) => other !== view);
-    this.save();
+    this.save(this.kept.filter((other) => other !== view));
   }
 
-  save() {
-    sessionStorage.setItem(this.memory, JSON.stringify(this.kept));
+  save(kept) {
+    if (kept.length > mostKept) return this.refuse(full);
+    try {
+      sessionStorage.setItem(this.memory, JSON.stringify(kept));
+    } catch {
+      return this.refuse(full);
+    }
+    this.kept = kept;
     this.show();
   }
 
