@@ -83,6 +83,7 @@ std::string frame_message(const FrameHeader& header, const ViewPicture& picture)
                                     {"seconds", picture.seconds},
                                     {"decided", header.decided},
                                     {"given_way", given_way_json(header.given_way)},
+                                    {"film", Json::parse(header.film_values)},
                                     {"notes", picture.notes}});
   std::string message;
   message.reserve(4 + json.size() + picture.file.size());
@@ -114,9 +115,69 @@ std::string histogram_answer(std::uint64_t id, const FieldHistogram& histogram) 
   return text_of(json);
 }
 
-std::string pick_answer(std::uint64_t id, const std::optional<Vec3>& position) {
+namespace {
+
+Json probed_json(const ProbedComponent& component) {
+  Json json = {{"name", component.name}, {"column", component.column}};
+  if (component.mean) json["mean"] = *component.mean;
+  return json;
+}
+
+const char* name_of(FilmProgress::State state) {
+  switch (state) {
+    case FilmProgress::State::drawing:
+      return "drawing";
+    case FilmProgress::State::joining:
+      return "joining";
+    case FilmProgress::State::complete:
+      return "complete";
+    case FilmProgress::State::cancelled:
+      return "cancelled";
+    case FilmProgress::State::failed:
+      return "failed";
+    case FilmProgress::State::reading:
+      break;
+  }
+  return "reading";
+}
+
+}  // namespace
+
+std::string pick_answer(std::uint64_t id, const Probe& probe) {
   Json json = answer(id);
-  if (position) json["position"] = {position->a[0], position->a[1], position->a[2]};
+  if (probe.position)
+    json["position"] = {probe.position->a[0], probe.position->a[1], probe.position->a[2]};
+  if (probe.distance) json["distance"] = *probe.distance;
+  json["components"] = Json::array();
+  for (const ProbedComponent& component : probe.components)
+    json["components"].push_back(probed_json(component));
+  return text_of(json);
+}
+
+std::string places_answer(std::uint64_t id, const std::vector<double>& places) {
+  Json json = answer(id);
+  json["places"] = places;
+  return text_of(json);
+}
+
+std::string component_answer(std::uint64_t id, const std::string& description) {
+  Json json = answer(id);
+  json["component"] = Json::parse(description);
+  return text_of(json);
+}
+
+std::string film_message(const FilmProgress& progress) {
+  Json json = {
+      {"type", "film"},        {"state", name_of(progress.state)}, {"path", progress.path.string()},
+      {"done", progress.done}, {"frames", progress.frames},        {"number", progress.number},
+      {"text", progress.text}};
+  if (progress.seconds_left) json["seconds_left"] = *progress.seconds_left;
+  return text_of(json);
+}
+
+std::string settings_answer(std::uint64_t id, const std::string& settings) {
+  Json json = answer(id);
+  json["settings"] = Json::parse(settings);
   return text_of(json);
 }
 

@@ -9,8 +9,9 @@
 
 #include "splotchcl/light_model.h"
 #include "splotchcl/particles.h"
-#include "splotchcl/vector.h"
+#include "view/film_maker.h"
 #include "view/frame_scheduler.h"
+#include "view/probe.h"
 #include "view/view_drawer.h"
 #include "view/view_scene.h"
 
@@ -35,6 +36,7 @@ struct FrameHeader {
   FrameScheduler::Stage stage = FrameScheduler::Stage::preview;
   std::map<std::string, double> decided;  // keys that the state left open
   GivenWay given_way;
+  std::string film_values = "{}";  // JSON: what keyframes set, as it is at the frame that is shown
 };
 
 // Binary: the number of bytes of the header, 4 bytes with the lowest first; the header as JSON; the
@@ -50,10 +52,17 @@ std::string state_error(std::uint64_t state, const std::string& text);
 std::string message_error(const std::string& text);
 
 std::string histogram_answer(std::uint64_t id, const FieldHistogram& histogram);
-std::string pick_answer(std::uint64_t id, const std::optional<Vec3>& position);
+std::string pick_answer(std::uint64_t id, const Probe& probe);
+std::string places_answer(std::uint64_t id, const std::vector<double>& places);
+// `description`: as describe_component() gives it.
+std::string component_answer(std::uint64_t id, const std::string& description);
+// `settings`: JSON.
+std::string settings_answer(std::uint64_t id, const std::string& settings);
 std::string scene_text_answer(std::uint64_t id, const std::string& opened, const std::string& now);
 // `path`: where it is, or would have been.
 std::string save_answer(std::uint64_t id, SaveResult result, const std::string& path);
+// How far a film is, for all pages.
+std::string film_message(const FilmProgress& progress);
 std::string question_error(std::uint64_t id, const std::string& text);
 
 }  // namespace splotchcl::view

@@ -8,7 +8,7 @@
 #include "finish/tone.h"
 #include "splotchcl/error.h"
 #include "view/answers.h"
-#include "view/pick.h"
+#include "view/probe.h"
 #include "view/scene_description.h"
 #include "view/view_scene.h"
 
@@ -23,6 +23,8 @@ constexpr std::size_t most_questions = 32;
 constexpr std::size_t histogram_bins = 64;
 // Enough to find what lies under the pointer.
 constexpr std::uint64_t particles_to_pick = 200000;
+// Of a small plan of the scene.
+constexpr std::size_t places_shown = 2000;
 
 ViewDrawer::Options with_go_on(ViewDrawer::Options options, std::function<bool()> go_on) {
   options.go_on = std::move(go_on);
@@ -42,11 +44,12 @@ bool fills_window(const ViewDrawer& drawer) {
 DrawLoop::Page::Page(SendToPage to_page, std::uint64_t particles)
     : send(std::move(to_page)), quality(particles, preview_seconds) {}
 
-DrawLoop::DrawLoop(SceneWithSnapshot source, ViewDrawer::Options options,
+DrawLoop::DrawLoop(SceneWithSnapshot source, const ViewDrawer::Options& options,
                    std::vector<std::string>& notes)
-    : drawer_(std::move(source), with_go_on(std::move(options), [this] { return go_on(); }), notes),
+    : drawer_(std::move(source), with_go_on(options, [this] { return go_on(); }), notes),
       description_(describe_scene(drawer_.opened(), *drawer_.snapshot_of(drawer_.opened()),
                                   fills_window(drawer_))),
+      films_(options.device, [this](const FilmProgress& film) { tell_all(film_message(film)); }),
       thread_([this] { run(); }) {}
 
 DrawLoop::~DrawLoop() {
@@ -59,6 +62,7 @@ void DrawLoop::stop() {
 }
 
 bool DrawLoop::stop_within(std::chrono::milliseconds patience) {
+  films_.interrupt();
   std::unique_lock lock(mutex_);
   is_stopping_ = true;
   changed_.notify_all();
@@ -67,6 +71,7 @@ bool DrawLoop::stop_within(std::chrono::milliseconds patience) {
 
 std::uint64_t DrawLoop::open_page(SendToPage send) {
   send({false, description_});
+  if (const auto film = films_.progress()) send({false, film_message(*film)});
   const std::lock_guard lock(mutex_);
   auto page = std::make_shared<Page>(std::move(send), drawer_.particles());
   page->input = page->scheduler.take_input(false, Clock::now());
@@ -84,6 +89,7 @@ void DrawLoop::close_page(std::uint64_t page) {
 }
 
 void DrawLoop::take(std::uint64_t number, const PageMessage& message) {
+  if (std::holds_alternative<CancelFilm>(message)) return films_.cancel();
   const std::lock_guard lock(mutex_);
   const auto found = pages_.find(number);
   if (found == pages_.end()) return;
@@ -208,17 +214,52 @@ void DrawLoop::carry_out(const Work& work) {
   }
 }
 
+void DrawLoop::tell_all(const std::string& message) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [number, page] : pages_)
+    page->send({false, message});
+}
+
+std::vector<Component> DrawLoop::added_components(const PageState& state) {
+  std::vector<Component> added;
+  for (const std::string& type : state.added)
+    added.push_back(drawer_.component_for(type));
+  return added;
+}
+
+DrawLoop::PageScene DrawLoop::make_scene(const PageState& state) {
+  PageScene scene;
+  scene.made_from = state.scene;
+  const std::vector<Component> added = added_components(state);
+  scene.opened = with_components(drawer_.opened(), added);
+  std::optional<Scene> suggested;
+  if (drawer_.suggested() != nullptr) suggested = with_components(*drawer_.suggested(), added);
+  scene.all = scene_of(scene.opened, suggested ? &*suggested : nullptr, state);
+  scene.open = open_keys(scene.all);
+  scene.all = drawer_.decide(scene.all);
+  scene.shown = without_hidden(scene.all, state.hidden);
+  return scene;
+}
+
+// A film that plays changes nothing but its frame.
 DrawLoop::PageScene& DrawLoop::scene_of_page(const Work& work) {
   std::optional<PageScene>& known = work.page->scene;
   if (known && known->input == work.input) return *known;
-  PageScene scene;
-  scene.input = work.input;
-  scene.all = scene_of(drawer_.opened(), drawer_.suggested(), work.state);
-  scene.open = open_keys(scene.all);
-  scene.all = drawer_.decide(scene.all);
-  scene.shown = without_hidden(scene.all, work.state.hidden);
-  scene.drawn = work.state.frame ? at_frame(scene.shown, *work.state.frame) : scene.shown;
-  return known.emplace(std::move(scene));
+  if (!known || known->made_from != work.state.scene) known = make_scene(work.state);
+  known->input = 0;  // until all is there
+  known->drawn = known->shown;
+  known->film_values = "{}";
+  if (const std::optional<int> frame = work.state.frame) {
+    if (!known->film) {
+      known->film = std::make_shared<FilmPath>(film_of(known->shown));
+      known->film_of_all = std::make_shared<FilmPath>(film_of(known->all));
+    }
+    known->drawn = at_frame(*known->film, known->shown, *frame);
+    known->film_values = describe_values(at_frame(*known->film_of_all, known->all, *frame),
+                                         keys_of_keyframes(known->all));
+  }
+  known->input = work.input;
+  return *known;
 }
 
 void DrawLoop::draw(const Work& work, const FrameScheduler::Task& task) {
@@ -240,7 +281,8 @@ void DrawLoop::draw(const Work& work, const FrameScheduler::Task& task) {
   header.state = work.state.number;
   header.stage = task.stage;
   header.decided = numbers_of(scene.all, scene.open);
-  header.given_way = given_way(drawer_.opened(), work.state, scene.all);
+  header.given_way = given_way(scene.opened, work.state, scene.all);
+  header.film_values = scene.film_values;
   {
     const std::lock_guard lock(mutex_);
     header.frame = page.scheduler.sent(task);
@@ -268,7 +310,22 @@ std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id,
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const PickQuestion& question) {
   const Frame frame = drawer_.sample(scene.drawn, particles_to_pick);
-  return pick_answer(id, pick_particle(frame, question.x * frame.width, question.y * frame.height));
+  return pick_answer(id, probe(frame, question.x * frame.width, question.y * frame.height));
+}
+
+std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const PlacesQuestion&) {
+  return places_answer(id, some_places(drawer_.sample(scene.shown, places_shown), places_shown));
+}
+
+std::string DrawLoop::answer_to(PageScene&, std::uint64_t id, const ComponentQuestion& question) {
+  const Component& component = drawer_.component_for(question.type);
+  return component_answer(id,
+                          describe_component(component, *drawer_.snapshot_of(drawer_.opened())));
+}
+
+std::string DrawLoop::answer_to(PageScene&, std::uint64_t id, const LookQuestion& question) {
+  const Scene scene = drawer_.with_look(question.look);
+  return settings_answer(id, describe_look(drawer_.opened(), scene));
 }
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SceneTextQuestion&) {
@@ -281,6 +338,18 @@ std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SaveSc
       save_scene(question.path, question.may_replace, scene.shown,
                  {drawer_.opened(), scene.all, *drawer_.snapshot_of(scene.shown)});
   return save_answer(id, result, std::filesystem::absolute(question.path).string());
+}
+
+std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const MakeFilm& question) {
+  const std::filesystem::path film = std::filesystem::absolute(question.path);
+  const std::filesystem::path scene_file = std::filesystem::path(film).replace_extension(".toml");
+  const ViewInputs inputs = {drawer_.opened(), scene.all, *drawer_.snapshot_of(scene.shown)};
+  films_.require_idle();
+  SaveResult result = check_film_file(film, question.may_replace, inputs);
+  if (result == SaveResult::saved)
+    result = save_scene(scene_file, question.may_replace, scene.shown, inputs);
+  if (result == SaveResult::saved) films_.start(scene_file, film);
+  return save_answer(id, result, film.string());
 }
 
 std::string DrawLoop::answer_to(PageScene& scene, std::uint64_t id, const SavePicture& question) {

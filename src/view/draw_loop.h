@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -15,6 +16,8 @@
 #include <variant>
 #include <vector>
 
+#include "film/path/film_path.h"
+#include "view/film_maker.h"
 #include "view/frame_scheduler.h"
 #include "view/requests/page_messages.h"
 #include "view/view_drawer.h"
@@ -34,7 +37,8 @@ using SendToPage = std::function<void(OutgoingMessage)>;
 class DrawLoop {
  public:
   // `options.go_on` is not used. Throws as ViewDrawer does.
-  DrawLoop(SceneWithSnapshot source, ViewDrawer::Options options, std::vector<std::string>& notes);
+  DrawLoop(SceneWithSnapshot source, const ViewDrawer::Options& options,
+           std::vector<std::string>& notes);
   ~DrawLoop();
   DrawLoop(const DrawLoop&) = delete;
   DrawLoop& operator=(const DrawLoop&) = delete;
@@ -43,6 +47,11 @@ class DrawLoop {
   void stop();
   // Asks for the same, and waits for no longer than that. Returns whether it has ended.
   bool stop_within(std::chrono::milliseconds patience);
+
+  // A film that pages had made, by the number that they were told. For any thread.
+  std::optional<std::filesystem::path> film(std::size_t number) const {
+    return films_.film(number);
+  }
 
   // For any thread. Returns the page's number.
   std::uint64_t open_page(SendToPage send);
@@ -54,10 +63,15 @@ class DrawLoop {
   // A page's state as a scene.
   struct PageScene {
     std::uint64_t input = 0;
+    Scene opened;                // with the components that the page has added
     std::set<std::string> open;  // keys that the state leaves to data or picture
     Scene all;                   // with components that are off
     Scene shown;                 // without them
     Scene drawn;                 // at the film's frame, where that is shown
+    // Of `shown` and of `all`, once they are asked for.
+    std::shared_ptr<const FilmPath> film, film_of_all;
+    std::string made_from;           // PageState::scene
+    std::string film_values = "{}";  // as FrameHeader has them
   };
   struct Page {
     explicit Page(SendToPage to_page, std::uint64_t particles);
@@ -92,9 +106,16 @@ class DrawLoop {
   void answer(const Work& work, const PageQuestion& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const HistogramQuestion& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const PickQuestion& question);
+  std::string answer_to(PageScene& scene, std::uint64_t id, const PlacesQuestion& question);
+  std::string answer_to(PageScene& scene, std::uint64_t id, const ComponentQuestion& question);
+  std::string answer_to(PageScene& scene, std::uint64_t id, const LookQuestion& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const SceneTextQuestion& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const SaveScene& question);
   std::string answer_to(PageScene& scene, std::uint64_t id, const SavePicture& question);
+  std::string answer_to(PageScene& scene, std::uint64_t id, const MakeFilm& question);
+  void tell_all(const std::string& message);
+  std::vector<Component> added_components(const PageState& state);
+  PageScene make_scene(const PageState& state);
   PageScene& scene_of_page(const Work& work);
 
   ViewDrawer drawer_;  // of the drawing thread, once that runs
@@ -111,6 +132,7 @@ class DrawLoop {
   std::shared_ptr<Page> exact_page_;
   FrameScheduler::Task exact_task_;
 
+  FilmMaker films_;  // tells all pages
   std::thread thread_;
 };
 

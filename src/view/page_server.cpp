@@ -9,9 +9,12 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <charconv>
 #include <csignal>
 #include <deque>
 #include <list>
+#include <optional>
+#include <system_error>
 #include <utility>
 
 #include "splotchcl/error.h"
@@ -28,6 +31,7 @@ namespace websocket = beast::websocket;
 using Tcp = net::ip::tcp;
 using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
+using FileResponse = http::response<http::file_body>;
 
 constexpr std::chrono::seconds request_timeout{30};
 // Of a connection that has not shown the token yet.
@@ -49,6 +53,17 @@ std::string_view view_of(beast::string_view text) {
 RequestSource source_of(const Request& request) {
   return {view_of(request.target()), view_of(request[http::field::host]),
           view_of(request[http::field::origin])};
+}
+
+// "film/3" -> 3
+std::optional<std::size_t> film_number(std::string_view name) {
+  constexpr std::string_view start = "film/";
+  if (name.substr(0, start.size()) != start) return std::nullopt;
+  name.remove_prefix(start.size());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return number;
 }
 
 class HttpConnection;
@@ -163,7 +178,8 @@ Response plain_response(http::status status, std::string text) {
 }
 
 // The page loads nothing from elsewhere, and stands in no other page.
-void set_policies(Response& response, std::string_view host) {
+template <class AnyResponse>
+void set_policies(AnyResponse& response, std::string_view host) {
   const std::string sockets = "ws://" + std::string(host);
   response.set(http::field::server, "splotchcl");
   response.set(http::field::cache_control, "no-store");
@@ -270,6 +286,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
         return respond(plain_response(http::status::service_unavailable,
                                       "too many pages are open, expected at most 64\n"));
       }
+      if (!is_socket && give_film(name)) return;
       if (!is_socket) return respond(answer(request, name));
       if (name != "live") {
         return respond(plain_response(http::status::not_found, "no such socket\n"));
@@ -297,12 +314,30 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     return response;
   }
 
-  void respond(Response response) {
+  // "film/3" as it lies on the disk. False: it is no such name.
+  bool give_film(std::string_view name) {
+    const std::optional<std::size_t> number = film_number(name);
+    const auto path = number ? shared_.pages.film(*number) : std::nullopt;
+    if (!path || parser_->get().method() != http::verb::get) return false;
+    FileResponse response{http::status::ok, 11};
+    beast::error_code error;
+    response.body().open(path->c_str(), beast::file_mode::scan, error);
+    if (error) return false;
+    response.set(http::field::content_type, "application/octet-stream");
+    stream_.expires_never();
+    send(std::move(response));
+    return true;
+  }
+
+  void respond(Response response) { send(std::move(response)); }
+
+  template <class AnyResponse>
+  void send(AnyResponse response) {
     const Request& request = parser_->get();
     set_policies(response, view_of(request[http::field::host]));
     response.keep_alive(count_ && request.keep_alive());
     if (request.method() != http::verb::head) response.prepare_payload();
-    const auto kept = std::make_shared<Response>(std::move(response));
+    const auto kept = std::make_shared<AnyResponse>(std::move(response));
     http::async_write(stream_, *kept,
                       [self = shared_from_this(), kept](beast::error_code error, std::size_t) {
                         if (!error && kept->keep_alive()) return self->read();

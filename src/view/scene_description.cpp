@@ -7,12 +7,19 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "finish/ticks.h"
 #include "load/derived_fields.h"
+#include "scene_file/keys.h"
 #include "sequence/list_sequence.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/palette_file.h"
+#include "view/requests/page_messages.h"
+#include "view/view_scene.h"
 
 namespace splotchcl::view {
 namespace {
@@ -22,84 +29,33 @@ using Json = nlohmann::json;
 // Of a palette, from its first color to its last.
 constexpr int samples = 17;
 
-Json vector_json(const Vec3& v) {
-  return {v.a[0], v.a[1], v.a[2]};
+// "component.12.palette" -> "component.palette", as the table of keys has it.
+std::string without_number(const std::string& key, std::size_t component) {
+  const std::string start = fmt::format("component.{}.", component);
+  return key.rfind(start, 0) == 0 ? "component." + key.substr(start.size()) : key;
 }
 
-// null: left to the data.
-Json optional_json(const std::optional<double>& number) {
-  return number ? Json(*number) : Json();
+// null: left to the data, or to a default that is no value.
+Json value_json(const Scene& scene, const std::string& key) {
+  const std::size_t component = component_of_key(scene, key).value_or(0);
+  const scene_file::Key* const known = scene_file::find_key(without_number(key, component));
+  const std::optional<std::string> text = known->get(scene, component);
+  if (!text || *text == "\"auto\"") return nullptr;
+  Json value = Json::parse(*text, nullptr, false);
+  return value.is_discarded() ? Json() : value;
 }
 
-const char* name_of(Scaling scaling) {
-  return scaling == Scaling::log ? "log" : scaling == Scaling::asinh ? "asinh" : "linear";
-}
-
-const char* name_of(ToneCurve tone) {
-  return tone == ToneCurve::asinh ? "asinh" : tone == ToneCurve::filmic ? "filmic" : "linear";
-}
-
-const char* name_of(Projection projection) {
-  switch (projection) {
-    case Projection::orthographic:
-      return "orthographic";
-    case Projection::fisheye:
-      return "fisheye";
-    case Projection::equirectangular:
-      return "equirectangular";
-    case Projection::cube:
-      return "cube";
-    case Projection::perspective:
-      break;
-  }
-  return "perspective";
-}
-
-// null: a rule that the page does not set.
-Json absorption_json(const Absorption& absorption) {
-  if (absorption.kind == Absorption::Kind::as_emission) return "emission";
-  if (absorption.kind == Absorption::Kind::none) return "none";
-  if (absorption.kind == Absorption::Kind::factor) return absorption.factor;
-  return nullptr;
-}
-
-void add_component_settings(const Component& component, std::size_t i, Json& settings) {
-  const std::string start = fmt::format("component.{}.", i);
-  settings[start + "palette"] = component.palette;
-  settings[start + "brightness"] = component.brightness;
-  settings[start + "size.factor"] = component.size_factor;
-  const Json absorption = absorption_json(component.absorption);
-  if (!absorption.is_null()) settings[start + "absorption"] = absorption;
-  if (component.color.field.empty()) return;
-  settings[start + "color.field"] = component.color.field;
-  settings[start + "color.scaling"] = name_of(component.color.scaling);
-  settings[start + "color.min"] = optional_json(component.color.minimum);
-  settings[start + "color.max"] = optional_json(component.color.maximum);
-}
-
+// Every key that a page may set.
 Json settings_json(const Scene& scene) {
+  Json settings = Json::object();
+  for (const std::string& key : settable_keys(scene.components.size()))
+    settings[key] = value_json(scene, key);
   const Camera& camera = *scene.camera;
-  Json settings = {
-      {"camera.position", vector_json(camera.position)},
-      {"camera.look_at", vector_json(camera.look_at)},
-      {"camera.sky", vector_json(camera.sky)},
-      {"camera.projection", name_of(camera.projection)},
-      {"image.size", {scene.image.width, scene.image.height}},
-      {"image.gamma", scene.image.gamma},
-      {"tolerance", scene.tolerance},
-      {"finish.exposure", optional_json(scene.finish.exposure)},
-      {"finish.white", optional_json(scene.finish.white)},
-      {"finish.tone", name_of(scene.finish.tone)},
-      {"finish.saturation", scene.finish.saturation},
-      {"finish.contrast", scene.finish.contrast},
-      {"finish.color_bar.show", scene.finish.color_bar.show},
-      {"finish.scale_bar.show", scene.finish.scale_bar.show},
-  };
+  settings.erase("camera.field_of_view");
   if (camera.projection != Projection::cube) {
     settings["camera.field_of_view"] = field_of_view_degrees(camera);
   }
-  for (std::size_t i = 0; i < scene.components.size(); ++i)
-    add_component_settings(scene.components[i], i, settings);
+  if (!scene.time.is_set()) settings.erase("time.index");
   return settings;
 }
 
@@ -138,28 +94,74 @@ std::set<std::string> fields_of(const Component& component, const Snapshot& snap
   return fields;
 }
 
+// Of fields whose unit is known, by the first type that has them.
+Json units_json(const Component& component, const std::set<std::string>& fields,
+                const Snapshot& snapshot) {
+  Json units = Json::object();
+  const int first = component.types.empty() ? 0 : component.types.front();
+  const ParticleTypeInfo* const type = snapshot.info().find_type(first);
+  if (type == nullptr || !component.snapshot.empty()) return units;
+  for (const std::string& field : fields) {
+    const std::string unit = unit_of(*type, field);
+    if (!unit.empty()) units[field] = unit;
+  }
+  return units;
+}
+
+Json component_json(const Component& component, std::size_t number, const Snapshot& snapshot) {
+  const std::set<std::string> fields = fields_of(component, snapshot);
+  return {
+      {"name", component.name.empty() ? fmt::format("component {}", number + 1) : component.name},
+      {"fields", fields},
+      {"units", units_json(component, fields, snapshot)},
+      {"has_own_colors", !component.color_vector.empty()}};
+}
+
 Json components_json(const Scene& scene, const Snapshot& snapshot) {
   Json components = Json::array();
-  for (std::size_t i = 0; i < scene.components.size(); ++i) {
-    const Component& component = scene.components[i];
-    components.push_back(
-        {{"name", component.name.empty() ? fmt::format("component {}", i + 1) : component.name},
-         {"fields", fields_of(component, snapshot)},
-         {"has_own_colors", !component.color_vector.empty()}});
-  }
+  for (std::size_t i = 0; i < scene.components.size(); ++i)
+    components.push_back(component_json(scene.components[i], i, snapshot));
   return components;
 }
 
-// Those of a scene whose keyframes move nothing but the camera; a page cannot show others.
+// The types of particles that there are, and how many of each.
+Json particles_json(const Snapshot& snapshot) {
+  Json particles = Json::array();
+  for (const ParticleTypeInfo& type : snapshot.info().types)
+    particles.push_back({{"type", particle_type_name(type.type)}, {"count", type.count}});
+  return particles;
+}
+
+// With the component's number, as the page has it.
+std::string numbered_key(const Scene& scene, const std::string& key) {
+  const std::optional<std::size_t> component = component_of_key(scene, key);
+  if (!component) return key;
+  const std::size_t start = std::string_view("component.").size();
+  return fmt::format("component.{}.{}", *component, key.substr(key.find('.', start) + 1));
+}
+
+// None for a keyframe with something that a page may not set.
+std::optional<Json> keyframe_json(const Scene& scene, const Keyframe& keyframe) {
+  Json settings = Json::object();
+  for (const auto& [word, text] : keyframe.values) {
+    const std::string key = numbered_key(scene, word);
+    Json value = Json::parse(text, nullptr, false);
+    if (!is_settable(key) || value.is_discarded()) return std::nullopt;
+    settings[key] = std::move(value);
+  }
+  return Json{{"frame", keyframe.frame},
+              {"settings", settings},
+              {"ease", keyframe.is_eased},
+              {"dwell", keyframe.dwell}};
+}
+
+// None where the page cannot show them all.
 Json keyframes_json(const Scene& scene) {
   Json keyframes = Json::array();
   for (const Keyframe& keyframe : scene.path.keyframes) {
-    Json settings = Json::object();
-    for (const auto& [key, value] : keyframe.values) {
-      settings[key] = Json::parse(value, nullptr, false);
-      if (key.rfind("camera.", 0) != 0 || settings[key].is_discarded()) return Json::array();
-    }
-    keyframes.push_back({{"frame", keyframe.frame}, {"settings", settings}});
+    const std::optional<Json> json = keyframe_json(scene, keyframe);
+    if (!json) return Json::array();
+    keyframes.push_back(*json);
   }
   return keyframes;
 }
@@ -208,19 +210,71 @@ std::string describe_scene(const Scene& opened, const Snapshot& snapshot, bool f
                {"name", info.files.front().filename().string()},
                {"settings", settings_json(opened)},
                {"components", components_json(opened, snapshot)},
+               {"particles", particles_json(snapshot)},
+               {"length_unit", length_unit(info)},
                {"palettes", palettes_json(opened)},
                {"keyframes", keyframes_json(opened)},
                {"fills_window", fills_window},
                {"has_path", opened.path.is_set()},
+               {"film_file", stem_of(snapshot) + "_view.mp4"},
                {"scene_file", stem_of(snapshot) + "_view.toml"},
                {"picture_file", stem_of(snapshot) + "_view.png"}};
   if (info.redshift) json["redshift"] = *info.redshift;
   json["time"] = info.time;
-  if (opened.time.is_set()) {
-    json["times"] = times_json(opened);
-    json["settings"]["time.index"] = opened.time.index;
-  }
+  if (opened.time.is_set()) json["times"] = times_json(opened);
   // File names need not be UTF-8.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+namespace {
+
+bool is_of_look(const Scene& opened, const Scene& look, const std::string& key) {
+  const std::optional<std::size_t> component = component_of_key(look, key);
+  if (!component) return key.rfind("finish.", 0) == 0 || key == "image.background";
+  return *component < opened.components.size() &&
+         opened.components[*component].types == look.components[*component].types &&
+         key.find(".select.") == std::string::npos;
+}
+
+}  // namespace
+
+std::string describe_look(const Scene& opened, const Scene& look) {
+  Json settings = settings_json(look);
+  Json own = Json::object();
+  for (const auto& [key, value] : settings.items()) {
+    if (is_of_look(opened, look, key)) own[key] = value;
+  }
+  return own.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::set<std::string> keys_of_keyframes(const Scene& scene) {
+  std::set<std::string> keys;
+  for (const Keyframe& keyframe : scene.path.keyframes) {
+    for (const auto& [word, text] : keyframe.values) {
+      const std::string key = numbered_key(scene, word);
+      if (is_settable(key)) keys.insert(key);
+    }
+  }
+  return keys;
+}
+
+std::string describe_values(const Scene& scene, const std::set<std::string>& keys) {
+  Json values = Json::object();
+  for (const std::string& key : keys)
+    values[key] = value_json(scene, key);
+  return values.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string describe_component(const Component& component, const Snapshot& snapshot) {
+  Scene scene;
+  scene.components = {component};
+  Json settings = Json::object();
+  for (const std::string& key : settable_keys(1)) {
+    constexpr std::string_view start = "component.0.";
+    if (key.rfind(start, 0) == 0) settings[key.substr(start.size())] = value_json(scene, key);
+  }
+  Json json = component_json(component, 0, snapshot);
+  json["settings"] = settings;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -15,9 +15,11 @@
 
 #include "image/png_file.h"
 #include "snapshot/cached_snapshot.h"
+#include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
+#include "splotchcl/scene_file.h"
 
 namespace splotchcl::view {
 namespace {
@@ -148,6 +150,29 @@ std::shared_ptr<const Snapshot> ViewDrawer::snapshot_of(const Scene& scene) cons
   if (!scene.time.is_set()) return snapshot_;
   moment_ = source_.at(scene);
   return moment_;
+}
+
+const Component& ViewDrawer::component_for(const std::string& type) {
+  if (const auto known = components_for_.find(type); known != components_for_.end())
+    return known->second;
+  const std::optional<int> number = find_particle_type(type);
+  if (!number || snapshot_->info().find_type(*number) == nullptr) {
+    throw UsageError("a component: found particles of the type '" + type +
+                     "', expected some that the snapshot has");
+  }
+  Scene alone = opened_;
+  alone.path = {};
+  alone.components = {suggest_component(*snapshot_, {*number})};
+  alone.components.front().name = type;
+  return components_for_[type] = decide(alone).components.front();
+}
+
+Scene ViewDrawer::with_look(const std::string& look) const {
+  const std::optional<Look> known = apply_settings(Scene(), {"look=" + look}).look;
+  Scene suggested = suggest_scene(*snapshot_, known.value_or(Look::press));
+  suggested.snapshot = opened_.snapshot;
+  suggested.read = opened_.read;
+  return decide(suggested);
 }
 
 Scene ViewDrawer::decide(const Scene& scene) const {

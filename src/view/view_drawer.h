@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -50,6 +51,12 @@ class ViewDrawer {
   // What the scene draws: of a sequence the moment that it says.
   std::shared_ptr<const Snapshot> snapshot_of(const Scene& scene) const;
   std::uint64_t particles() const { return particles_; }
+  // A component for particles that the opened scene may not show, as it is suggested for them, with
+  // every number decided. Throws UsageError for a type that there is none of.
+  const Component& component_for(const std::string& type);
+  // The snapshot as a look shows it (docs/looks.md), with every number decided. Throws UsageError
+  // for a look that there is none of.
+  Scene with_look(const std::string& look) const;
 
   // A scene with numbers found anew where a page left them open.
   Scene decide(const Scene& scene) const;
@@ -66,9 +73,10 @@ class ViewDrawer {
  private:
   Scene opened_;
   std::optional<Scene> suggested_;
-  mutable SnapshotSource source_;                   // of a sequence
-  mutable std::shared_ptr<const Snapshot> moment_;  // of the sequence that was asked for last
-  std::shared_ptr<const Snapshot> snapshot_;        // that was opened, with its columns
+  mutable SnapshotSource source_;                    // of a sequence
+  mutable std::shared_ptr<const Snapshot> moment_;   // of the sequence that was asked for last
+  std::shared_ptr<const Snapshot> snapshot_;         // that was opened, with its columns
+  std::map<std::string, Component> components_for_;  // by their types
   FrameSampler sampler_;
   TreePreview tree_preview_;
   FrameDrawer drawer_;

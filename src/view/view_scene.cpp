@@ -5,13 +5,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "common/words.h"
 #include "film/follow/find_followed.h"
-#include "film/path/film_path.h"
+#include "film/movie/encoder.h"
 #include "open_scene/input_files.h"
 #include "scene_file/file_names.h"
 #include "scene_file/suggested.h"
@@ -47,6 +49,63 @@ std::vector<std::string> all_open_keys(const Scene& scene) {
     keys.push_back(fmt::format("component.{}.color.max", i));
   }
   return keys;
+}
+
+// "component.12.palette" -> "12", "palette"; empty where it is none of a component.
+std::pair<std::string, std::string> parts_of_component_key(const std::string& key) {
+  constexpr std::string_view start = "component.";
+  if (key.rfind(start, 0) != 0) return {};
+  const std::size_t dot = key.find('.', start.size());
+  if (dot == std::string::npos) return {};
+  return {key.substr(start.size(), dot - start.size()), key.substr(dot + 1)};
+}
+
+void clear_sphere(ParticleSet& set) {
+  set.sphere_center.reset();
+  set.sphere_radius.reset();
+  set.sphere_rim.reset();
+}
+
+// False: the component must have it.
+bool leave_to_default(Component& component, const std::string& key) {
+  using Clear = void (*)(Component&);
+  static const std::map<std::string, Clear> clear = {
+      {"absorption", [](Component&) {}},  // another rule, which the page does not set
+      {"weight", [](Component& c) { c.weight.reset(); }},
+      {"color.field", [](Component& c) { c.color.field.clear(); }},
+      {"color.scaling", [](Component&) {}},
+      {"intensity.field", [](Component& c) { c.intensity.field.clear(); }},
+      {"intensity.scaling", [](Component&) {}},
+      {"intensity.min", [](Component& c) { c.intensity.minimum.reset(); }},
+      {"intensity.max", [](Component& c) { c.intensity.maximum.reset(); }},
+      {"select.where", [](Component& c) { c.select.where.clear(); }},
+      {"select.sphere.center", [](Component& c) { clear_sphere(c.select); }},
+      {"select.sphere.radius", [](Component& c) { clear_sphere(c.select); }},
+      {"select.box.min", [](Component& c) { c.select.box_minimum.reset(); }},
+      {"select.box.max", [](Component& c) { c.select.box_maximum.reset(); }},
+  };
+  const auto found = clear.find(key);
+  if (found == clear.end()) return false;
+  found->second(component);
+  return true;
+}
+
+// False: the scene must have it.
+bool leave_to_default(Scene& scene, const std::string& key) {
+  if (key == "finish.title.text") {
+    scene.finish.title.text.clear();
+  } else if (key == "finish.caption.text") {
+    scene.finish.caption.text.clear();
+  } else if (key == "finish.white_balance") {
+    scene.finish.white_balance.reset();
+  } else if (key == "stereo.layout" || key == "stereo.angle") {
+    scene.stereo.reset();
+  } else {
+    const std::optional<std::size_t> component = component_of_key(scene, key);
+    return component &&
+           leave_to_default(scene.components[*component], parts_of_component_key(key).second);
+  }
+  return true;
 }
 
 bool is_known_palette(std::string name) {
@@ -100,12 +159,47 @@ void check_names(const Scene& opened, const Scene& scene) {
   }
 }
 
+bool has_component(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.components.begin(), scene.components.end(),
+                     [&name](const Component& component) { return component.name == name; });
+}
+
 bool sets(const PageState& state, const char* key) {
   return std::any_of(state.settings.begin(), state.settings.end(),
                      [key](const PageSetting& setting) { return setting.key == key; });
 }
 
+bool moves_camera(const Keyframe& keyframe) {
+  return std::any_of(keyframe.values.begin(), keyframe.values.end(),
+                     [](const auto& value) { return value.first.rfind("camera.", 0) == 0; });
+}
+
+// The film is as long as these say. They take the place of another path where both would move the
+// camera.
+void set_keyframes(Scene& scene, const std::vector<Keyframe>& keyframes) {
+  if (std::any_of(keyframes.begin(), keyframes.end(), moves_camera)) {
+    PathSettings own;
+    own.is_smooth = scene.path.is_smooth;
+    own.look = scene.path.look;
+    own.max_turn_rate = scene.path.max_turn_rate;
+    scene.path = own;
+  }
+  scene.path.keyframes = keyframes;
+  scene.movie.frames.reset();
+}
+
 }  // namespace
+
+Scene with_components(Scene scene, const std::vector<Component>& added) {
+  for (const Component& component : added) {
+    std::string name = component.name;
+    for (int i = 2; has_component(scene, name); ++i)
+      name = fmt::format("{} {}", component.name, i);
+    scene.components.push_back(component);
+    scene.components.back().name = name;
+  }
+  return scene;
+}
 
 Scene scene_of(const Scene& opened, const Scene* suggested, const PageState& state) {
   std::vector<std::string> settings;
@@ -113,11 +207,13 @@ Scene scene_of(const Scene& opened, const Scene* suggested, const PageState& sta
     settings.push_back(setting.key + "=" + setting.value);
   Scene scene = scene_file::apply_settings_to_suggested(opened, suggested, settings);
   for (const std::string& key : state.open) {
-    std::optional<double>* const number = find_open_number(scene, key);
-    if (number == nullptr) throw UsageError(key + ": found no value, expected one");
-    number->reset();
+    if (std::optional<double>* const number = find_open_number(scene, key)) {
+      number->reset();
+    } else if (!leave_to_default(scene, key)) {
+      throw UsageError(key + ": found no value, expected one");
+    }
   }
-  if (state.keyframes) scene.path.keyframes = *state.keyframes;
+  if (state.keyframes) set_keyframes(scene, *state.keyframes);
   check_names(opened, scene);
   const std::int64_t pixels = std::int64_t{scene.image.width} * scene.image.height;
   if (pixels > most_pixels) {
@@ -142,7 +238,45 @@ GivenWay given_way(const Scene& opened, const PageState& state, const Scene& sce
   return instead;
 }
 
+std::optional<std::size_t> component_of_key(const Scene& scene, const std::string& key) {
+  const std::string word = parts_of_component_key(key).first;
+  if (word.empty()) return std::nullopt;
+  for (std::size_t i = 0; i < scene.components.size(); ++i) {
+    if (word == scene.components[i].name || word == std::to_string(i)) return i;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+// By their new numbers, the keys that are of components that are shown, and all others.
+std::map<std::string, std::string> shown_values(const Scene& scene, const Keyframe& keyframe,
+                                                const std::set<std::size_t>& hidden) {
+  std::map<std::string, std::string> values;
+  for (const auto& [key, value] : keyframe.values) {
+    const std::optional<std::size_t> component = component_of_key(scene, key);
+    if (!component) {
+      values[key] = value;
+    } else if (hidden.count(*component) == 0) {
+      const auto before =
+          static_cast<std::size_t>(std::distance(hidden.begin(), hidden.lower_bound(*component)));
+      values[fmt::format("component.{}.{}", *component - before,
+                         parts_of_component_key(key).second)] = value;
+    }
+  }
+  return values;
+}
+
+}  // namespace
+
 Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden) {
+  if (hidden.empty()) return scene;
+  std::vector<Keyframe> keyframes;
+  for (Keyframe keyframe : scene.path.keyframes) {
+    keyframe.values = shown_values(scene, keyframe, hidden);
+    if (!keyframe.values.empty()) keyframes.push_back(std::move(keyframe));
+  }
+  scene.path.keyframes = std::move(keyframes);
   std::vector<Component> shown;
   for (std::size_t i = 0; i < scene.components.size(); ++i) {
     if (hidden.count(i) == 0) shown.push_back(scene.components[i]);
@@ -152,14 +286,17 @@ Scene without_hidden(Scene scene, const std::set<std::size_t>& hidden) {
   return scene;
 }
 
-Scene at_frame(const Scene& scene, int frame) {
+FilmPath film_of(const Scene& scene) {
   std::vector<std::string> ignored;
-  const FilmPath path(scene, ignored, find_followed);
-  if (frame >= path.frame_count()) {
+  return FilmPath(scene, ignored, find_followed);
+}
+
+Scene at_frame(const FilmPath& film, const Scene& scene, int frame) {
+  if (frame >= film.frame_count()) {
     throw UsageError(
-        fmt::format("the film: found frame {}, expected one below {}", frame, path.frame_count()));
+        fmt::format("the film: found frame {}, expected one below {}", frame, film.frame_count()));
   }
-  return path.scene_at(scene, frame);
+  return film.scene_at(scene, frame);
 }
 
 std::set<std::string> open_keys(const Scene& scene) {
@@ -233,6 +370,14 @@ SaveResult check_picture(const fs::path& path, bool may_replace, const Scene& sc
                          const ViewInputs& inputs) {
   check_image_path(path);
   check_image_size(path, scene.image.width, scene.image.height);
+  return check(path, may_replace, inputs);
+}
+
+SaveResult check_film_file(const fs::path& path, bool may_replace, const ViewInputs& inputs) {
+  if (!is_film_path(path)) {
+    throw UsageError(path.string() +
+                     ": found another ending, expected .mp4, .mov, .mkv or .webm for a film");
+  }
   return check(path, may_replace, inputs);
 }
 

@@ -70,6 +70,36 @@ TEST(PageMessages, AStateMayHaveKeyframesAndAFrameOfTheirFilm) {
   EXPECT_EQ(state.keyframes->at(0).values.at("camera.position"), "[1, 2, 3]");
 }
 
+TEST(PageMessages, KeyframesMaySlowDownAndStay) {
+  const auto state = std::get<PageState>(parse_page_message(
+      R"({"type":"state","number":1,"moving":false,"settings":{},"hidden":[],"keyframes":)"
+      R"([{"frame":5,"settings":{"component.0.brightness":2},"ease":true,"dwell":25}]})"));
+  EXPECT_TRUE(state.keyframes->at(0).is_eased);
+  EXPECT_EQ(state.keyframes->at(0).dwell, 25);
+}
+
+TEST(PageMessages, AStateMayHaveComponentsForOtherParticles) {
+  const std::string start =
+      R"({"type":"state","number":1,"moving":false,"settings":{},"hidden":[],"added":)";
+  const auto state = std::get<PageState>(parse_page_message(start + R"(["halo","halo"]})"));
+  EXPECT_THAT(state.added, ElementsAre("halo", "halo"));
+  for (const char* const added : {"3}", R"(["halo",3]})", R"([""]})"})
+    EXPECT_NE(refusal(start + added), "") << added;
+}
+
+TEST(PageMessages, FilmsAreMadeAndCancelled) {
+  const auto question = std::get<PageQuestion>(
+      parse_page_message(R"({"type":"make_film","id":3,"path":"a.mp4","replace":false})"));
+  EXPECT_EQ(std::get<MakeFilm>(question.what).path, "a.mp4");
+  EXPECT_TRUE(std::holds_alternative<CancelFilm>(parse_page_message(R"({"type":"cancel_film"})")));
+}
+
+TEST(PageMessages, KeysThatMayBeSetAreOfEachComponent) {
+  EXPECT_THAT(settable_keys(2), ::testing::Contains("component.1.color.field"));
+  EXPECT_TRUE(is_settable("component.7.select.where"));
+  EXPECT_FALSE(is_settable("component.7.select.ids"));
+}
+
 TEST(PageMessages, KeyframesWithoutFrameOrSettingsAreRefused) {
   const std::string start =
       R"({"type":"state","number":1,"moving":false,"settings":{},"hidden":[],"keyframes":[)";
@@ -114,6 +144,12 @@ TEST(PageMessages, WordsCannotBecomeOtherToml) {
     EXPECT_THAT(refusal_of_setting("component.0.palette", word), HasSubstr("plain characters"));
 }
 
+TEST(PageMessages, TextsMayHaveQuotesAndStayOneString) {
+  EXPECT_EQ(state_of(R"({"finish.title.text":"a \"b\" \\ c"})").settings[0].value,
+            R"("a \"b\" \\ c")");
+  EXPECT_NE(refusal_of_setting("finish.title.text", R"("a\nb = 1")"), "");
+}
+
 TEST(PageMessages, WhatIsNoMessageIsRefused) {
   for (const char* const text :
        {"", "x", "[]", "{}", "null", R"({"type":3})", R"({"type":"other","id":1})",
@@ -125,7 +161,7 @@ TEST(PageMessages, WhatIsNoMessageIsRefused) {
 }
 
 TEST(PageMessages, HugeAndDeepOnesAreRefused) {
-  EXPECT_THAT(refusal(std::string(longest_message_bytes + 1, ' ')), HasSubstr("64 KiB"));
+  EXPECT_THAT(refusal(std::string(longest_message_bytes + 1, ' ')), HasSubstr("256 KiB"));
   EXPECT_THAT(refusal(std::string(30000, '[')), HasSubstr("nested"));
 }
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "view/answers.h"
 #include "view/frame_sample.h"
 #include "view/pick.h"
+#include "view/probe.h"
 
 namespace splotchcl::view {
 namespace {
@@ -177,6 +179,28 @@ TEST(Pick, TakesTheMiddleOfTheLightByDepth) {
 TEST(Pick, TakesWhatIsBright) {
   const Frame frame = frame_with({0, 0, 8, 0, 0, 0, 0, 0, 4}, {1, 100, 1});
   EXPECT_EQ(pick_particle(frame, 50, 50)->a[2], 0);
+}
+
+TEST(Probe, FindsTheMeanOfTheFieldByMassAlongTheLineOfSight) {
+  Frame frame = frame_with({0, 0, 8, 0, 0, 0, 3, 0, 0}, {1, 3, 100});
+  frame.components[0].particles.color = Column::owning(std::vector<float>{10, 20, 1000});
+  const Probe found = probe(frame, 50, 50);
+  EXPECT_EQ(*found.distance, 10);
+  EXPECT_NEAR(*found.components.at(0).mean, (10 * 1 + 20 * 3) / 4.0, 1e-6);
+}
+
+TEST(Probe, FindsTheColumnOfMassThroughACloud) {
+  const Frame frame = frame_with({0, 0, 0}, {5});
+  const double sigma = frame.kernel.width * 0.1f;
+  EXPECT_NEAR(probe(frame, 50, 50).components.at(0).column, 5 / (M_PI * sigma * sigma), 1e-6);
+  EXPECT_EQ(probe(frame, 10, 10).components.at(0).column, 0);
+  EXPECT_FALSE(probe(frame, 10, 10).components.at(0).mean);
+}
+
+TEST(Probe, TellsSomePlacesOfEachComponent) {
+  Frame frame = frame_with({1, 2, 3, 4, 5, 6}, {1, 1});
+  frame.components.push_back(frame.components.front());
+  EXPECT_THAT(some_places(frame, 2), ElementsAre(1, 2, 3, 1, 2, 3));
 }
 
 TEST(Pick, LeavesOutWhatIsBehindTheCamera) {

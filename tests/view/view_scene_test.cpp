@@ -106,12 +106,61 @@ TEST(ViewScene, AFrameOfTheFilmIsBetweenItsKeyframes) {
   PageState state;
   state.keyframes = {{0, {{"camera.field_of_view", "20"}}}, {10, {{"camera.field_of_view", "40"}}}};
   const Scene scene = scene_of(opened_scene(), nullptr, state);
-  EXPECT_EQ(*at_frame(scene, 0).camera->field_of_view_degrees, 20);
-  EXPECT_EQ(*at_frame(scene, 10).camera->field_of_view_degrees, 40);
-  const double between = *at_frame(scene, 4).camera->field_of_view_degrees;
+  EXPECT_EQ(*at_frame(film_of(scene), scene, 0).camera->field_of_view_degrees, 20);
+  EXPECT_EQ(*at_frame(film_of(scene), scene, 10).camera->field_of_view_degrees, 40);
+  const double between = *at_frame(film_of(scene), scene, 4).camera->field_of_view_degrees;
   EXPECT_GT(between, 20);
   EXPECT_LT(between, 40);
-  EXPECT_THROW(at_frame(scene, 11), UsageError);
+  EXPECT_THROW(at_frame(film_of(scene), scene, 11), UsageError);
+}
+
+TEST(ViewScene, LeavesToItsDefaultWhatThePageTakesAway) {
+  Scene opened = opened_scene();
+  opened.stereo.emplace();
+  opened.finish.title.text = "title";
+  opened.components[1].select.where = {"density > 1"};
+  opened.components[1].select.sphere_center = Vec3{{0, 0, 0}};
+  opened.components[1].select.sphere_radius = 3;
+  opened.components[1].intensity.field = "density";
+  PageState state;
+  state.open = {"stereo.layout", "finish.title.text", "component.1.select.where",
+                "component.1.select.sphere.radius", "component.1.intensity.field"};
+  const Scene scene = scene_of(opened, nullptr, state);
+  EXPECT_FALSE(scene.stereo);
+  EXPECT_EQ(scene.finish.title.text, "");
+  EXPECT_FALSE(scene.components[1].select.is_given());
+  EXPECT_EQ(scene.components[1].intensity.field, "");
+}
+
+TEST(ViewScene, ComponentsThatAreAddedHaveNamesOfTheirOwn) {
+  Component halo;
+  halo.name = "halo";
+  const Scene scene = with_components(opened_scene(), {halo, halo});
+  ASSERT_EQ(scene.components.size(), 4u);
+  EXPECT_EQ(scene.components[2].name, "halo");
+  EXPECT_EQ(scene.components[3].name, "halo 2");
+}
+
+TEST(ViewScene, KeyframesOfTheCameraTakeThePlaceOfAnotherPath) {
+  Scene opened = opened_scene();
+  opened.path.orbit.emplace();
+  opened.movie.frames = 250;
+  PageState state;
+  state.keyframes = {{0, {{"component.0.brightness", "1"}}}};
+  EXPECT_TRUE(scene_of(opened, nullptr, state).path.orbit);
+  state.keyframes->push_back({5, {{"camera.field_of_view", "20"}}});
+  EXPECT_FALSE(scene_of(opened, nullptr, state).path.orbit);
+  EXPECT_FALSE(scene_of(opened, nullptr, state).movie.frames);
+}
+
+TEST(ViewScene, KeyframesFollowTheComponentsThatStay) {
+  Scene scene = opened_scene();
+  scene.path.keyframes = {{0, {{"component.0.brightness", "1"}, {"component.1.brightness", "2"}}},
+                          {5, {{"component.0.brightness", "3"}}}};
+  const Scene shown = without_hidden(scene, {0});
+  ASSERT_EQ(shown.path.keyframes.size(), 1u);
+  EXPECT_THAT(shown.path.keyframes[0].values, ElementsAre(std::pair<const std::string, std::string>(
+                                                  "component.0.brightness", "2")));
 }
 
 TEST(ViewScene, OtherKeysCannotBeOpen) {

@@ -25,10 +25,12 @@ struct PageState {
   std::uint64_t number = 0;  // the page's own, for its answers
   bool is_moving = false;    // more will follow at once
   std::vector<PageSetting> settings;
-  std::set<std::string> open;                      // keys that are left to the data
-  std::set<std::size_t> hidden;                    // components that are off
+  std::set<std::string> open;      // keys that are left to the data, or to their default
+  std::vector<std::string> added;  // particle types with components beside the opened scene's
+  std::set<std::size_t> hidden;    // components that are off
   std::optional<std::vector<Keyframe>> keyframes;  // instead of the scene's own
   std::optional<int> frame;  // of the film that these make, instead of the scene as it stands
+  std::string scene;         // the same for states of which only the frame and what is above differ
 };
 
 struct FrameAcknowledged {
@@ -43,6 +45,16 @@ struct HistogramQuestion {
 struct PickQuestion {
   double x = 0, y = 0;
 };
+// Where the scene's particles are, by some of them.
+struct PlacesQuestion {};
+// A component for a particle type, as it would be added.
+struct ComponentQuestion {
+  std::string type;
+};
+// What a look would set.
+struct LookQuestion {
+  std::string look;
+};
 // The scene as text, and that which was opened.
 struct SceneTextQuestion {};
 struct SaveScene {
@@ -54,16 +66,31 @@ struct SavePicture {
   bool may_replace = false;
 };
 
+// The scene is saved beside the film, and the film drawn from it while the page goes on.
+struct MakeFilm {
+  std::string path;
+  bool may_replace = false;
+};
+
 // What is answered once, by the page's number for it.
 struct PageQuestion {
   std::uint64_t id = 0;
-  std::variant<HistogramQuestion, PickQuestion, SceneTextQuestion, SaveScene, SavePicture> what;
+  std::variant<HistogramQuestion, PickQuestion, PlacesQuestion, ComponentQuestion, LookQuestion,
+               SceneTextQuestion, SaveScene, SavePicture, MakeFilm>
+      what;
 };
 
-using PageMessage = std::variant<PageState, FrameAcknowledged, PageQuestion>;
+// The film that is being drawn is not wanted any more.
+struct CancelFilm {};
+
+using PageMessage = std::variant<PageState, FrameAcknowledged, CancelFilm, PageQuestion>;
+
+// All keys that a page may set in a scene of so many components.
+std::vector<std::string> settable_keys(std::size_t components);
+bool is_settable(std::string_view key);
 
 // No message is longer.
-constexpr std::size_t longest_message_bytes = 64 * 1024;
+constexpr std::size_t longest_message_bytes = 256 * 1024;
 
 // Throws UsageError for what is no message: not JSON, a key that a page may not set, a value of
 // another kind than the key's, anything missing or too much.

@@ -6,6 +6,8 @@ import zipfile
 
 import pytest
 
+Select = pytest.importorskip("selenium.webdriver.support.ui", reason="python3-selenium is missing").Select
+
 from test_page import Page
 
 
@@ -31,10 +33,19 @@ def violations(browser, axe):
 def test_the_live_view_is_accessible(browser, view, axe):
     page = Page(browser, view())
     assert violations(browser, axe) == []
+    Select(page.find("Suggested films")).select_by_visible_text("Turn once")
+    page.find("Keyframe 1 at 0.0 s").click()
+    page.find("Show the plan of the way").click()
+    page.find("Keep this view").click()
+    page.type_number("Field of view", "none")
     page.find("Light or dark page").click()
     assert violations(browser, axe) == []
     page.find("Light or dark page").click()
-    browser.find_element("tag name", "summary").click()
+    browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true;")
+    assert violations(browser, axe) == []
+    page.find("Draw the film").click()
+    assert violations(browser, axe) == []
+    page.find("Close film").click()
     page.find("Help").click()
     assert violations(browser, axe) == []
     browser.get("about:blank")

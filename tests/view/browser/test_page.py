@@ -4,6 +4,7 @@ import base64
 import json
 import math
 import os
+import subprocess
 import time
 from pathlib import Path
 
@@ -33,7 +34,7 @@ class Page:
         # Those that may be called so: to ask the browser for each control's name takes long.
         controls = self.browser.execute_script("""
             const name = arguments[0], called = (element) => element?.textContent.includes(name);
-            const selector = "button, input, select, [role=application], [role=status], dialog, pre";
+            const selector = "a, button, input, select, [role=application], [role=status], dialog, pre";
             return [...document.querySelectorAll(selector)].filter((control) =>
                 control.getAttribute("aria-label") === name || called(control) ||
                 [...(control.labels ?? [])].some(called) ||
@@ -97,6 +98,7 @@ def test_orbit_palette_range_and_save_are_found_by_their_names(page):
 
 
 def test_every_control_has_a_name(page):
+    page.browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true;")
     controls = page.browser.find_elements(By.CSS_SELECTOR, "button, input, select, [tabindex]")
     assert len(controls) > 30
     assert [c.get_attribute("outerHTML") for c in controls
@@ -210,10 +212,11 @@ def test_keyframes_are_added_played_and_saved(page, tmp_path):
     assert frame.get_attribute("value") == "50"
     page.find("Play the keyframes").click()
     WebDriverWait(page.browser, PATIENCE).until(
-        lambda _: page.script("app.keyframes.timer === null && app.keyframes.frame === 50"))
+        lambda _: page.script("app.film.timer === null && app.film.frame === 50"))
     page.wait_for_exact()
     assert page.picture() == here
     page.keep_screenshot("keyframes")
+    page.find("Keyframe 1 at 0.0 s").click()
     page.find("Remove keyframe 1").click()
     page.find("Undo").click()
     page.find("Save scene").click()
@@ -222,6 +225,248 @@ def test_keyframes_are_added_played_and_saved(page, tmp_path):
     WebDriverWait(page.browser, PATIENCE).until(lambda _: saved.exists())
     assert "keyframes" in saved.read_text()
     page.find("Close").click()
+
+
+def test_a_minute_of_film_made_in_the_page_is_what_movie_draws(browser, view, run, tmp_path):
+    run("generate", "universe", "--particles", 2000, "-o", tmp_path / "universe")
+    page = Page(browser, view(tmp_path / "universe", "--size", "160x120"))
+    browser.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path / "got")})
+    Select(page.find("Suggested films")).select_by_visible_text("Turn once")
+    page.type_number("Frames per second", 2)
+    page.type_number("Length of the film in seconds", 60)
+    fourth = page.script("app.store.state.keyframes[3].frame")
+    page.find(f"Keyframe 4 at {fourth / 2} s").click()
+    page.find("Slow down at keyframe 4").click()
+    ActionChains(browser).drag_and_drop_by_offset(page.find(f"Keyframe 4 at {fourth / 2} s"), 20, 0).perform()
+    assert page.script("app.store.state.keyframes[3].frame") > fourth
+    page.type_number("Brightness of gas", 2)
+    page.find("Add keyframe").click()
+    page.script("app.film.goTo(60)")
+    page.wait_for_exact()
+    (tmp_path / "page.png").write_bytes(page.picture())
+    page.keep_screenshot("film")
+    page.find("Draw the film").click()
+    page.find("Draw film").click()
+    WebDriverWait(browser, 5 * PATIENCE).until(
+        lambda _: page.script("document.body.dataset.film") in ("complete", "failed"))
+    assert "Drawn" in page.browser.find_element(By.ID, "film-answer").text
+    film, scene = tmp_path / "universe_view.mp4", tmp_path / "universe_view.toml"
+    run("movie", scene, "-o", tmp_path / "again.mp4")
+    assert film.read_bytes() == (tmp_path / "again.mp4").read_bytes()
+    run("movie", scene, "-o", tmp_path / "frame_%04d.png", "--frames", "60:61")
+    run("compare", tmp_path / "page.png", tmp_path / "frame_0060.png", "--limit", 0)
+    assert seconds_of(film) == pytest.approx(page.script("app.film.frames") / 2)
+    page.find("Download film").click()
+    page.find("Download scene").click()
+    got = [tmp_path / "got" / path.name for path in (film, scene)]
+    WebDriverWait(browser, PATIENCE).until(lambda _: all(path.exists() for path in got))
+    assert got[0].read_bytes() == film.read_bytes()
+    page.find("Close film").click()
+    assert page.errors() == []
+    browser.get("about:blank")
+
+
+def seconds_of(film):
+    words = ["ffprobe", "-v", "error", "-show_entries", "format=duration", "-of", "csv=p=0", str(film)]
+    return float(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
+
+
+def test_a_film_that_is_cancelled_leaves_nothing(page, tmp_path):
+    Select(page.find("Suggested films")).select_by_visible_text("Turn once")
+    page.type_number("Length of the film in seconds", 600)
+    page.find("Draw the film").click()
+    page.find("Draw film").click()
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: page.script("document.body.dataset.film === 'drawing'"))
+    page.find("Cancel drawing").click()
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: page.script("document.body.dataset.film === 'cancelled'"))
+    assert [path.name for path in tmp_path.iterdir()] == ["universe_view.toml"]
+    page.find("Close film").click()
+
+
+def test_what_changes_between_keyframes_moves_and_the_controls_tell_it(page):
+    before = page.setting("component.0.brightness")
+    page.find("Add keyframe").click()
+    page.type_number("Brightness of gas", 4 * before)
+    page.find("Add keyframe").click()
+    assert page.script("app.store.state.keyframes.map(({settings}) => settings['component.0.brightness'])") == [
+        before, 4 * before]
+    page.script("app.film.goTo(25)")
+    page.wait_for_exact()
+    assert float(page.find("Brightness of gas").get_attribute("value")) == pytest.approx(2.5 * before, rel=0.01)
+    # What is changed begins at what the film shows.
+    page.find("Orbit left").click()
+    assert page.setting("component.0.brightness") == pytest.approx(2.5 * before, rel=0.01)
+
+
+def test_a_flight_is_recorded_as_few_keyframes(page):
+    page.find("Record my flight").click()
+    for _ in range(20):
+        page.script("app.gestures.move('orbit', 0.3, 0)")
+        time.sleep(0.05)
+    page.find("End the recording").click()
+    frames = page.script("app.store.state.keyframes.map(({frame}) => frame)")
+    assert 2 <= len(frames) < 20 and frames[-1] > 20
+    assert page.script("app.store.state.keyframes.at(-1).settings['camera.position']") == page.setting(
+        "camera.position")
+    page.find("Show the plan of the way").click()
+    assert page.browser.find_element(By.ID, "plan").is_displayed()
+
+
+def test_a_kind_of_particles_is_added_and_removed_again(page):
+    before = page.picture()
+    Select(page.find("Add a component")).select_by_value("gas")
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: page.script("app.components.length === 3"))
+    page.wait_for_exact()
+    assert page.picture() != before
+    Select(page.find("Palette of gas 2")).select_by_visible_text("viridis")
+    page.find("Remove the component gas 2").click()
+    page.wait_for_exact()
+    assert page.picture() == before
+
+
+def test_what_no_scene_can_have_is_said_beside_the_field(page):
+    field = page.find("Field of view")
+    page.type_number("Field of view", "many")
+    assert "expected a number" in problem_of(page, field)
+    page.type_number("Field of view", 400)
+    assert "found 400, expected a number from 0.001 to 360" in problem_of(page, field)
+    page.browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true;")
+    where = page.find("Only gas where")
+    where.send_keys("nonsense > 1", Keys.ENTER)
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: where.get_attribute("aria-invalid"))
+    assert "nonsense" in problem_of(page, where)
+    where.clear()
+    where.send_keys("density > 0", Keys.ENTER)
+    page.wait_for_exact()
+    assert where.get_attribute("aria-invalid") is None
+
+
+def problem_of(page, field):
+    return page.browser.find_element(By.ID, field.get_attribute("aria-describedby")).text
+
+
+def test_numbers_are_dragged_and_have_exponents(page):
+    before = page.setting("component.0.brightness")
+    ActionChains(page.browser).drag_and_drop_by_offset(page.find("Brightness of gas"), 40, 0).perform()
+    page.wait_for_exact()
+    assert page.setting("component.0.brightness") == pytest.approx(before * 1.01**40, rel=0.05)
+    assert page.find("Undo").get_attribute("title") == "Undo: gas brightness"
+    page.find("Undo").click()
+    assert page.setting("component.0.brightness") == before
+    page.type_number("Range maximum of gas", "2.5e7")
+    page.wait_for_exact()
+    assert page.setting("component.0.color.max") == 2.5e7
+    assert page.find("Range maximum of gas").get_attribute("value") == "2.5e7"
+
+
+def test_glasses_of_red_and_cyan_and_words_change_the_picture(page):
+    pictures = {page.picture()}
+    Select(page.find("Stereo")).select_by_value("anaglyph")
+    page.wait_for_exact()
+    pictures.add(page.picture())
+    page.find("Title").send_keys("Title", Keys.ENTER)
+    page.wait_for_exact()
+    pictures.add(page.picture())
+    assert len(pictures) == 3
+    Select(page.find("Stereo")).select_by_value("none")
+    page.find("Title").clear()
+    page.find("Caption").click()
+    page.wait_for_exact()
+    assert page.picture() in pictures
+
+
+def test_a_sphere_that_clips_is_dragged_by_its_handles(page):
+    page.browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true;")
+    before = page.picture()
+    page.find("Clip gas to a sphere").click()
+    page.wait_for_exact()
+    assert page.picture() != before
+    center, radius = (page.setting(f"component.0.select.sphere.{key}") for key in ("center", "radius"))
+    middle, rim = page.browser.find_elements(By.CSS_SELECTOR, "#clips .grip")
+    ActionChains(page.browser).drag_and_drop_by_offset(rim, 30, 0).perform()
+    page.wait_for_exact()
+    assert page.setting("component.0.select.sphere.radius") < radius
+    ActionChains(page.browser).drag_and_drop_by_offset(middle, 20, 10).perform()
+    page.wait_for_exact()
+    assert page.setting("component.0.select.sphere.center") != center
+    page.find("Clip gas to a sphere").click()
+    page.wait_for_exact()
+    assert page.picture() == before
+
+
+def test_a_box_that_clips_has_two_corners(page):
+    page.browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true;")
+    before = page.picture()
+    page.find("Clip gas to a box").click()
+    page.wait_for_exact()
+    assert page.picture() != before
+    low, high = (page.setting(f"component.0.select.box.{end}") for end in ("min", "max"))
+    page.type_number("Highest x of the box of gas", (low[0] + high[0]) / 2)
+    page.wait_for_exact()
+    assert page.setting("component.0.select.box.max") == [(low[0] + high[0]) / 2, *high[1:]]
+    page.find("Clip gas to a box").click()
+    page.wait_for_exact()
+    assert page.picture() == before
+
+
+def test_a_look_sets_light_and_palettes(page):
+    before = page.picture()
+    Select(page.find("Look")).select_by_visible_text("paper")
+    WebDriverWait(page.browser, PATIENCE).until(lambda _: page.script("app.store.past.length === 1"))
+    page.wait_for_exact()
+    assert page.setting("image.background") == [1, 1, 1]
+    assert page.picture() != before
+    page.find("Undo").click()
+    page.wait_for_exact()
+    assert page.picture() == before
+
+
+def test_a_film_goes_through_the_time_of_a_series(browser, view, real_file, tmp_path):
+    snapshots = [str(real_file(f"lcdm/fmt2_snapshot_{number:03d}")) for number in (4, 5, 6)]
+    scene = tmp_path / "series.toml"
+    scene.write_text(f"look = 'press'\n[time]\nsnapshots = {json.dumps(snapshots)}\n[image]\nsize = [160, 120]\n")
+    page = Page(browser, view(scene))
+    Select(page.find("Suggested films")).select_by_visible_text("Through time")
+    first, last = page.script("[0, app.film.lastFrame]")
+    pictures = []
+    for frame in (first, last):
+        page.script(f"app.film.goTo({frame})")
+        page.wait_for_exact()
+        pictures.append(page.picture())
+    assert pictures[0] != pictures[1]
+    assert page.find("Time index").get_attribute("value") == "2"
+    browser.get("about:blank")
+
+
+def test_states_are_kept_compared_and_linked_to(page):
+    start = page.picture()
+    page.find("Keep this view").click()
+    page.find("Compare with another state").click()
+    Select(page.find("Palette of gas")).select_by_visible_text("viridis")
+    page.wait_for_exact()
+    changed = page.picture()
+    page.find("Compare with another state").click()
+    page.wait_for_exact()
+    assert page.picture() == start
+    page.find("Compare with another state").click()
+    page.wait_for_exact()
+    assert page.picture() == changed
+    page.find("Link to this state").click()
+    address = page.script("location.href")
+    page.find("Open kept view 1").click()
+    page.wait_for_exact()
+    assert page.picture() == start
+    page.browser.get("about:blank")
+    page.browser.get(address)
+    page.wait_for_exact()
+    assert page.picture() == changed
+
+
+def test_the_probe_tells_what_is_under_the_pointer(page):
+    page.find("Probe what is under the pointer").click()
+    told = WebDriverWait(page.browser, PATIENCE).until(
+        lambda browser: browser.find_element(By.ID, "probed").text)
+    assert "away" in told and "gas: mean internal_energy" in told
 
 
 def test_another_field_gets_a_range_of_its_own(page):

@@ -20,7 +20,7 @@ def get(view, path, **headers):
     connection = http.client.HTTPConnection("127.0.0.1", view.port, timeout=PATIENCE)
     connection.request("GET", path, headers=headers)
     answer = connection.getresponse()
-    return answer.status, answer.read().decode(), dict(answer.getheaders())
+    return answer.status, answer.read().decode(errors="replace"), dict(answer.getheaders())
 
 
 def is_exact(number):
@@ -114,7 +114,7 @@ def test_messages_that_are_none_are_answered_with_an_error(view, message):
 def test_a_huge_message_ends_its_own_page_only(view):
     opened = view()
     page, other = PageSocket(opened), PageSocket(opened)
-    page.send("x" * 100000)
+    page.send("x" * 400000)
     with pytest.raises(ConnectionError):
         while True:
             page.receive()
@@ -199,6 +199,64 @@ def test_a_frame_of_the_keyframes_has_the_bits_of_the_film(view, run, tmp_path):
     page.receive_until(lambda m: m["type"] == "answer")
     run("movie", tmp_path / "film.toml", "-o", tmp_path / "frame_%04d.png", "--frames", "4:5")
     assert (tmp_path / "frame_0004.png").read_bytes() == exact["file"]
+
+
+def test_a_film_is_drawn_beside_the_pages_and_fetched_with_the_token(view, run, tmp_path):
+    opened = view()
+    page = PageSocket(opened)
+    keyframes = [{"frame": frame, "settings": {"camera.field_of_view": angle}} for frame, angle in ((0, 25), (5, 40))]
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [], "keyframes": keyframes})
+    page.receive_until(is_exact(1))
+    page.send({"type": "make_film", "id": 1, "path": "film.png", "replace": False})
+    assert "expected .mp4" in page.receive_until(lambda m: m.get("id") == 1)[-1]["error"]
+    page.send({"type": "make_film", "id": 2, "path": "film.mp4", "replace": False})
+    told = page.receive_until(lambda m: m.get("state") in ("complete", "failed"))
+    assert told[-1]["state"] == "complete" and told[-1]["frames"] == 6
+    run("movie", tmp_path / "film.toml", "-o", tmp_path / "again.mp4")
+    assert (tmp_path / "film.mp4").read_bytes() == (tmp_path / "again.mp4").read_bytes()
+    number = told[-1]["number"]
+    assert get(opened, f"/{opened.token}/film/{number}")[0] == 200
+    assert get(opened, f"/{opened.token}/film/{number + 1}")[0] == 404
+    assert get(opened, f"/{'0' * 32}/film/{number}")[0] == 403
+    # What is there is replaced only when that is said.
+    page.send({"type": "make_film", "id": 3, "path": "film.mp4", "replace": False})
+    assert page.receive_until(lambda m: m.get("id") == 3)[-1]["saved"] is False
+
+
+def test_ctrl_c_and_sigterm_end_it_while_it_draws_a_film(view, tmp_path):
+    for ending in (signal.SIGINT, signal.SIGTERM):
+        opened = view()
+        page = PageSocket(opened)
+        keyframes = [{"frame": frame, "settings": {"camera.field_of_view": angle}}
+                     for frame, angle in ((0, 25), (9000, 40))]
+        page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [], "keyframes": keyframes})
+        page.send({"type": "make_film", "id": 1, "path": "long.mp4", "replace": True})
+        page.receive_until(lambda m: m.get("state") == "drawing" and m["done"] > 0)
+        page.send({"type": "make_film", "id": 2, "path": "other.mp4", "replace": False})
+        assert "another film" in page.receive_until(lambda m: m.get("id") == 2)[-1]["error"]
+        opened.process.send_signal(ending)
+        opened.process.communicate(timeout=20)
+        assert opened.process.returncode == 0
+        assert not (tmp_path / "long.mp4").exists() and not (tmp_path / "other.toml").exists()
+
+
+def test_a_component_for_other_particles_is_added_and_taken_away(view, run, real_file, tmp_path):
+    page = PageSocket(view(real_file("lcdm/fmt2_snapshot_006"), "--size", "80x60"))
+    before = page.receive_until(is_exact_of_opened)[-1]["file"]
+    page.send({"type": "component", "id": 1, "particles": "halo"})
+    halo = page.receive_until(lambda m: m.get("id") == 1)[-1]["component"]
+    assert halo["name"] == "halo" and halo["settings"]["palette"]
+    page.send({"type": "state", "number": 1, "moving": False, "settings": {}, "hidden": [], "added": ["halo"]})
+    added = page.receive_until(is_exact(1))[-1]["file"]
+    assert added != before
+    (tmp_path / "page.png").write_bytes(added)
+    page.send({"type": "save_scene", "id": 2, "path": "saved.toml", "replace": False})
+    page.receive_until(lambda m: m.get("id") == 2)
+    run("render", tmp_path / "saved.toml", "-o", tmp_path / "rendered.png")
+    run("compare", tmp_path / "page.png", tmp_path / "rendered.png", "--limit", 0)
+    page.send({"type": "state", "number": 2, "moving": False, "settings": {}, "added": ["halo"],
+               "hidden": [1]})
+    assert page.receive_until(is_exact(2))[-1]["file"] == before
 
 
 def test_a_moment_between_two_snapshots_has_the_bits_of_render(view, run, real_file, tmp_path):

@@ -26,26 +26,49 @@ export function button(word, name, onclick) {
   return element('button', {type: 'button', onclick, 'aria-label': name}, word);
 }
 
+// `options`: words, or pairs of a value and what is shown for it.
 export function select(name, options, onchange) {
   const made = element('select', {'aria-label': name});
-  made.append(...options.map((option) => element('option', {value: option}, option)));
+  fillSelect(made, options);
   made.onchange = () => onchange(made.value);
   return made;
 }
 
-// Calls `onchange` with finite numbers only; others are marked.
-export function numberInput(name, onchange, limits = {}) {
-  const made = element('input', {type: 'number', step: 'any', 'aria-label': name, ...limits});
-  made.onchange = () => {
-    if (made.value !== '' && made.validity.valid) onchange(Number(made.value));
-  };
-  return made;
+export function fillSelect(made, options) {
+  made.replaceChildren(...options.map((option) => {
+    const [value, shown] = Array.isArray(option) ? option : [option, option];
+    return element('option', {value}, shown);
+  }));
 }
 
 export function checkbox(word, name, onchange) {
   const box = element('input', {type: 'checkbox', 'aria-label': name});
   box.onchange = () => onchange(box.checked);
   return {box, label: element('label', {}, box, word)};
+}
+
+export function textInput(name, onchange) {
+  const made = element('input', {type: 'text', 'aria-label': name, spellcheck: false});
+  made.onchange = () => {
+    showProblem(made, '');
+    onchange(made.value.trim());
+  };
+  return made;
+}
+
+let problems = 0;
+
+// Says beside a field what is wrong with it; nothing: that all is well.
+export function showProblem(field, text) {
+  field.problem?.remove();
+  field.problem = null;
+  field.removeAttribute('aria-invalid');
+  field.removeAttribute('aria-describedby');
+  if (text === '') return;
+  field.problem = element('p', {className: 'problem', id: `problem-${++problems}`, role: 'alert'}, text);
+  field.setAttribute('aria-invalid', 'true');
+  field.setAttribute('aria-describedby', field.problem.id);
+  (field.closest('.row') ?? field.parentElement).append(field.problem);
 }
 
 // With a heading that folds it away.
@@ -57,4 +80,9 @@ export function group(name, ...children) {
     heading.setAttribute('aria-expanded', String(!isFolded));
   };
   return made;
+}
+
+// A part of a group that few need: closed at first.
+export function more(name, ...children) {
+  return element('details', {className: 'more'}, element('summary', {}, name), ...children);
 }

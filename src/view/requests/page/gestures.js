@@ -8,7 +8,9 @@ const turnPerWidth = Math.PI;   // a drag across the picture
 const wheelPerDolly = 600;      // pixels of the wheel for a factor of e
 const wheelRestMilliseconds = 250;
 const recenterMilliseconds = 280;
-const flySpeed = 0.6;           // distances to the look-at point in a second
+const flySpeed = 0.6;           // distances to matter, or else to the look-at point, in a second
+const lookMilliseconds = 300;   // from one look for matter to the next
+const slowest = 0.02, fastest = 10;  // distances to the look-at point
 const fastFlight = 4;
 const flightKeys = {KeyW: [0, 0, 1], KeyS: [0, 0, -1], KeyD: [1, 0, 0], KeyA: [-1, 0, 0],
                     KeyE: [0, 1, 0], KeyQ: [0, -1, 0]};
@@ -176,6 +178,7 @@ export class Gestures {
     this.held.clear();
     if (!isFlying) return this.store.rest();
     this.view.focus();
+    this.lookForMatter();
     const gesture = `flight ${++this.drags}`;
     let last = performance.now();
     const tick = (now) => {
@@ -187,9 +190,21 @@ export class Gestures {
     requestAnimationFrame(tick);
   }
 
+  // How far what is in the middle is, in distances to the look-at point.
+  async lookForMatter() {
+    this.matter = 1;
+    while (this.isFlying) {
+      const point = this.held.size === 0 ? undefined : await this.pick({x: 0.5, y: 0.5});
+      const {position, lookAt} = this.camera;
+      const far = (to) => Math.hypot(...to.map((x, i) => x - position[i]));
+      if (point) this.matter = Math.min(fastest, Math.max(slowest, far(point) / far(lookAt)));
+      await new Promise((resolve) => { setTimeout(resolve, lookMilliseconds); });
+    }
+  }
+
   flyOn(seconds, gesture) {
     if (this.held.size === 0) return this.store.rest();
-    const way = seconds * flySpeed * (this.isFast ? fastFlight : 1);
+    const way = seconds * flySpeed * this.matter * (this.isFast ? fastFlight : 1);
     let [right, up, forward] = [0, 0, 0];
     for (const code of this.held) {
       const [x, y, z] = flightKeys[code];

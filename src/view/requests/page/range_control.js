@@ -1,5 +1,6 @@
-// The range of a component's color field: two sliders over a histogram, and their numbers.
-import {button, element, numberInput, row, wide} from './elements.js';
+// The range of a component's color field: two handles on its histogram, and their numbers.
+import {button, element, row, wide} from './elements.js';
+import {numberInput} from './number_input.js';
 import {drawHistogram} from './histogram.js';
 import {readable, rounded, scaled, unscaled} from './scaling.js';
 
@@ -14,28 +15,33 @@ export class RangeControl {
     this.colors = colors;
     this.histogram = null;
     this.asked = '';  // for which field and scaling
-    this.canvas = element('canvas', {className: 'histogram', width: 308, height: 64, 'aria-hidden': true});
+    this.canvas = element('canvas', {className: 'histogram', width: 296, height: 64, 'aria-hidden': true});
     this.ends = ['min', 'max'].map((end) => this.makeEnd(end, name));
+    this.unit = element('span', {className: 'soft unit'});
+    const handles = element('div', {className: 'range'}, this.canvas, ...this.ends.map(({slider}) => slider));
+    const [from, to] = this.ends.map(({number}) => number);
     this.elements = [
-      row('Range', wide(this.canvas)),
-      ...this.ends.map(({slider, number}, i) => row(i === 0 ? 'from' : 'to', slider, number)),
+      row('Range', wide(handles)),
+      row('', wide(element('div', {className: 'ends'}, from, this.unit, to))),
       row('', wide(button('Adapt range', `Adapt range of ${name} to the data`, () => this.adapt()))),
     ];
   }
 
   makeEnd(end, name) {
     const word = end === 'min' ? 'minimum' : 'maximum';
-    const slider = element('input', {type: 'range', min: 0, max: steps, step: 1,
+    const slider = element('input', {type: 'range', className: 'handle', min: 0, max: steps, step: 1,
                                      'aria-label': `Range ${word} slider of ${name}`});
     slider.oninput = () => this.set(end, rounded(this.valueAt(slider.value / steps)), true);
     slider.onchange = () => this.store.rest();
-    const number = numberInput(`Range ${word} of ${name}`, (value) => this.set(end, value, false));
+    const number = numberInput(`Range ${word} of ${name}`, (value, isMoving) => this.set(end, value, isMoving),
+                               this.scaling === 'log' ? {min: 0} : {});
+    number.dataset.key = this.key(end);
     return {end, slider, number};
   }
 
   key(end) { return `component.${this.component}.color.${end}`; }
   value(end) { return this.store.settings[this.key(end)]; }
-  get scaling() { return this.value('scaling'); }
+  get scaling() { return this.value('scaling') ?? 'linear'; }
 
   set(end, value, isMoving) {
     this.store.change({[this.key(end)]: value}, {gesture: this.key(end), isMoving});
@@ -46,7 +52,7 @@ export class RangeControl {
 
   // What the sliders span, scaled: all data, and the range where that is wider.
   get span() {
-    const values = [this.value('min'), this.value('max')];
+    const values = [this.value('min') ?? null, this.value('max') ?? null];
     if (this.histogram) values.push(this.histogram.minimum, this.histogram.maximum);
     const places = values.filter((v) => v !== null).map((v) => scaled(v, this.scaling))
         .filter(Number.isFinite);
@@ -64,13 +70,14 @@ export class RangeControl {
     return (scaled(value, this.scaling) - low) / (high - low);
   }
 
-  show() {
+  show(unit = this.unit.textContent) {
+    this.unit.textContent = unit;
     this.askForHistogram();
     for (const {end, slider, number} of this.ends) {
       const value = this.value(end);
-      if (document.activeElement !== number) number.value = readable(value);
-      slider.disabled = value === null;
-      if (value === null) continue;
+      if (document.activeElement !== number) number.value = readable(value ?? null);
+      slider.disabled = value == null;
+      if (value == null) continue;
       slider.value = Math.round(steps * this.placeOf(value));
       slider.setAttribute('aria-valuetext', readable(value));
     }
@@ -78,8 +85,9 @@ export class RangeControl {
   }
 
   askForHistogram() {
-    const wanted = `${this.value('field')} ${this.scaling}`;
-    if (wanted === this.asked || !this.link.isOpen) return;
+    const field = this.value('field');
+    const wanted = `${field} ${this.scaling}`;
+    if (field == null || wanted === this.asked || !this.link.isOpen) return;
     this.asked = wanted;
     this.link.ask({type: 'histogram', component: this.component}).then((histogram) => {
       this.histogram = histogram.counts.length > 0 ? histogram : null;

@@ -55,15 +55,14 @@ export class SaveDialog {
     byId('save-go').textContent = may ? 'Replace file' : 'Save file';
   }
 
-  async download() {
-    const answer = byId('save-answer');
+  async download(type = this.type, answer = byId('save-answer')) {
     try {
-      const file = this.type === 'save_scene'
+      const isScene = type === 'save_scene';
+      const file = isScene
         ? new Blob([(await this.link.ask({type: 'scene_text'})).now], {type: 'application/toml'})
         : await this.picture();
-      const name = this.paths[this.type].split('/').pop().replace(/\.[^.]*$/, '');
-      const link = element('a', {href: URL.createObjectURL(file),
-                                 download: name + (this.type === 'save_scene' ? '.toml' : '.png')});
+      const name = this.paths[type].split('/').pop().replace(/\.[^.]*$/, '');
+      const link = element('a', {href: URL.createObjectURL(file), download: name + (isScene ? '.toml' : '.png')});
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
       answer.textContent = `Downloading ${link.download}`;

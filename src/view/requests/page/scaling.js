@@ -12,4 +12,10 @@ export function unscaled(value, scaling) {
 // Four digits are enough for what a slider sets.
 export const rounded = (value) => Number(value.toPrecision(4));
 
-export const readable = (value) => (value === null ? '' : String(Number(value.toPrecision(6))));
+// Large and small numbers with their exponent: 1.25e7.
+export function readable(value) {
+  if (value === null) return '';
+  const size = Math.abs(value);
+  const isPlain = size === 0 || (size >= 1e-3 && size < 1e6);
+  return isPlain ? String(Number(value.toPrecision(6))) : value.toExponential(4).replace(/\.?0*e\+?/, 'e');
+}

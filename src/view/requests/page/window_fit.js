@@ -19,6 +19,13 @@ export class WindowFit {
     this.fit();
   }
 
+  // Of the user's choice.
+  setSize(size) {
+    this.isOn = false;
+    const before = this.store.settings['image.size'];
+    this.store.change({'image.size': size, ...fieldOfView(this.store.settings, before, size)}, {gesture: 'image.size'});
+  }
+
   fit() {
     if (!this.isOn) return;
     const size = windowSize();
