@@ -1,4 +1,4 @@
-// The variant alone writes the #defines that reach a kernel, and knows the sizes that follow from
+// The variant alone says what #defines reach a kernel, and knows the sizes that follow from
 // them.
 #include "device/frame/variant.h"
 
@@ -85,9 +85,9 @@ std::set<std::string> macros_of_options() {
                   R"re("-D([A-Z]\w+)")re");
 }
 
-TEST(Defines, AreWrittenByTheVariantAlone) {
+TEST(Defines, AreWrittenInOnePlace) {
   for (const fs::path& file : files_below(source_folder() / "src")) {
-    if (file == variant_file) continue;
+    if (file == source_folder() / "src/device/opencl/program_text.cpp") continue;
     EXPECT_EQ(text_of(file).find("\"#define"), std::string::npos) << file;
   }
 }

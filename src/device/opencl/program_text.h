@@ -31,7 +31,7 @@ inline Choices lanes_of(bool rows) {
   return rows ? Choices{"LANES_8"} : Choices{};
 }
 
-// "#define CHOICE" and the end of the line.
+// The line of a program that defines the choice.
 std::string define(const std::string& choice);
 
 ProgramSource program_source(const std::string& file, const Choices& choices = {});
