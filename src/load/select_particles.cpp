@@ -53,7 +53,7 @@ std::optional<std::filesystem::path> catalog_of(const ParticleSet& set, const st
   if (const auto found = find_halo_catalog(file)) return found;
   throw UsageError(fmt::format(
       "component with {}.halo {}: particles of type {} in {} have no field of group ids, and there "
-      "is no fof_subhalo_tab beside it; expected {}.catalog, a catalog of haloes",
+      "is no catalog of haloes beside it; expected one as {}.catalog",
       key, *set.halo, fields.info().type, file.string(), key));
 }
 

@@ -9,6 +9,7 @@
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
 #include "open_scene/short_keys.h"
+#include "open_scene/shown_snapshot.h"
 #include "ranks/exchange.h"
 #include "scene_file/suggested.h"
 #include "sequence/list_sequence.h"
@@ -238,6 +239,26 @@ bool is_sequence(const std::filesystem::path& path) {
   return is_snapshot_pattern(path.string()) && !std::filesystem::exists(path, error);
 }
 
+// The scene that is chosen from a snapshot's data.
+SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
+                              const std::vector<std::string>& settings, const ShortKeys& keys,
+                              Look otherwise) {
+  SceneWithSnapshot result;
+  result.snapshot = snapshot;
+  const Look look = look_in(settings, otherwise);
+  Scene suggested = suggest_scene(*snapshot, look);
+  choose_types(keys, *snapshot, look, suggested);
+  result.suggested = with_wanted_types(suggested, settings, *snapshot, look);
+  result.scene =
+      scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
+  result.scene.look.reset();
+  apply_colors(keys, settings, result);
+  name_by_types(*result.suggested, result.scene);
+  const std::string not_drawn = tell_not_drawn(result.scene, *snapshot);
+  if (!not_drawn.empty() && keys.types.empty()) result.notes.push_back(not_drawn);
+  return result;
+}
+
 SceneWithSnapshot open_together(const std::filesystem::path& path,
                                 const std::vector<std::string>& settings, const ShortKeys& keys,
                                 const std::shared_ptr<Communicator>& ranks, Look otherwise) {
@@ -255,17 +276,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
   } else {
     result.snapshot = open_given_snapshot(path, read_settings_in(settings));
     share_passes(*result.snapshot, ranks);
-    const Look look = look_in(settings, otherwise);
-    Scene suggested = suggest_scene(*result.snapshot, look);
-    choose_types(keys, *result.snapshot, look, suggested);
-    result.suggested = with_wanted_types(suggested, settings, *result.snapshot, look);
-    result.scene =
-        scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
-    result.scene.look.reset();
-    apply_colors(keys, settings, result);
-    name_by_types(*result.suggested, result.scene);
-    const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
-    if (!not_drawn.empty() && keys.types.empty()) result.notes.push_back(not_drawn);
+    result = suggest_for(result.snapshot, settings, keys, otherwise);
   }
   share_passes(*result.snapshot, ranks);
   apply(keys, result);
@@ -276,6 +287,26 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
 
 bool is_par_file(const std::filesystem::path& path) {
   return lower_ending(path) == ".par";
+}
+
+SceneWithSnapshot show_snapshot(const std::shared_ptr<const Snapshot>& snapshot,
+                                const std::vector<std::string>& settings, Look look) {
+  std::vector<std::string> of_keys = settings;
+  const ShortKeys short_keys = take_short_keys(of_keys);
+  SceneWithSnapshot result = suggest_for(snapshot, of_keys, short_keys, look);
+  apply(short_keys, result);
+  return result;
+}
+
+SceneWithSnapshot show_scene(SceneWithSnapshot opened, const std::vector<std::string>& settings) {
+  std::vector<std::string> of_keys = settings;
+  const ShortKeys short_keys = take_short_keys(of_keys);
+  const Scene* const suggested = opened.suggested ? &*opened.suggested : nullptr;
+  opened.scene = scene_file::apply_settings_to_suggested(opened.scene, suggested, of_keys);
+  keep_types(short_keys, opened.scene);
+  apply_colors(short_keys, of_keys, opened);
+  apply(short_keys, opened);
+  return opened;
 }
 
 SceneWithSnapshot open_scene(const std::filesystem::path& path,
