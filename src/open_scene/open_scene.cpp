@@ -61,7 +61,7 @@ std::string names_of(const std::vector<int>& types, const std::string& between =
 }
 
 // A component still has the name of the types that it was suggested for, which would only confuse.
-void check_wanted_types(const std::vector<int>& types, std::size_t component,
+void check_wanted_types(const std::vector<int>& types, const std::string& key,
                         const Snapshot& snapshot) {
   std::vector<int> present;
   for (const ParticleTypeInfo& type : snapshot.info().types)
@@ -70,9 +70,19 @@ void check_wanted_types(const std::vector<int>& types, std::size_t component,
     return snapshot.info().find_type(type) != nullptr;
   });
   if (has_some) return;
-  throw UsageError("key component." + std::to_string(component) + ".types: found " +
-                   names_of(types) + ", of which " + snapshot.info().files.front().string() +
-                   " has no particles, expected some of " + names_of(present));
+  throw UsageError("key " + key + ": found " + names_of(types) + ", of which " +
+                   snapshot.info().files.front().string() + " has no particles, expected some of " +
+                   names_of(present));
+}
+
+// As the settings have it: by the component's name or its number.
+std::string key_of_types(std::size_t component, const std::string& name,
+                         const std::vector<std::string>& settings) {
+  const std::string by_name = "component." + name + ".types";
+  const bool is_by_name =
+      std::any_of(settings.begin(), settings.end(),
+                  [&by_name](const std::string& setting) { return key_of(setting) == by_name; });
+  return is_by_name ? by_name : "component." + std::to_string(component) + ".types";
 }
 
 // What was suggested for other types than a setting wants does not fit them: it is suggested anew,
@@ -91,8 +101,8 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
   for (std::size_t i = 0; i < wanted.components.size(); ++i) {
     const std::vector<int>& types = wanted.components[i].types;
     if (types == suggested.components[i].types) continue;
-    check_wanted_types(types, i, snapshot);
     const std::string name = suggested.components[i].name;
+    check_wanted_types(types, key_of_types(i, name, own), snapshot);
     suggested.components[i] = suggest_component(snapshot, types, look);
     suggested.components[i].name = name;
   }

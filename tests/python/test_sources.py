@@ -6,6 +6,7 @@ import shutil
 import numpy as np
 import pytest
 
+import splotchcl
 from conftest import make_arrays
 from splotchcl import DataError, Particles, Snapshot, UsageError, suggest
 
@@ -94,3 +95,51 @@ def test_a_type_has_what_can_be_derived(universe):
     gas = Snapshot(universe)["gas"]
     assert "temperature" in gas and "temperature" in gas.derived and "temperature" not in list(gas)
     assert gas["temperature"].shape == (len(gas),)
+
+
+@pytest.mark.parametrize("layout", ["plain", "Phantom", "Gadget"])
+def test_h5py_may_change_a_file_of_which_a_snapshot_is_kept(tmp_path, layout):
+    h5py = pytest.importorskip("h5py")
+    path = tmp_path / "a.hdf5"
+    group = {"plain": "", "Phantom": "particles/", "Gadget": "PartType0/"}[layout]
+    names = {"Gadget": ["Coordinates", "Masses", "SmoothingLength"]}.get(layout, ["xyz", "m", "h"])
+    with h5py.File(path, "w") as file:
+        for name, values in zip(names, [np.ones((5, 3)), np.ones(5), np.ones(5)]):
+            file[group + name] = values
+        if layout == "Gadget":
+            file.create_group("Header").attrs["NumPart_ThisFile"] = [5, 0, 0, 0, 0, 0]
+    snapshot = splotchcl.Snapshot(path)
+    snapshot["gas"]["position"]
+    with h5py.File(path, "r") as file:
+        np.testing.assert_array_equal(snapshot["gas"]["mass"], file[group + names[1]])
+    with h5py.File(path, "r+") as file:
+        file[group + names[1]][:] = 2
+    np.testing.assert_array_equal(splotchcl.Snapshot(path)["gas"]["mass"], 2)
+
+
+def test_units_by_key_are_those_of_maps(tmp_path):
+    x = np.random.default_rng(3).uniform(0, 1, (100, 3))
+    np.savez(tmp_path / "a.npz", pos=x, mass=np.full(100, 2.0), hsml=np.full(100, 0.1))
+    read = {"units": {"position": "kpc", "mass": "1e4 Msun"}}
+    drawn = splotchcl.column(splotchcl.Snapshot(tmp_path / "a.npz", read=read), center=(0.5, 0.5, 0.5),
+                             width=2, size=(32, 32), device="reference")
+    assert (drawn.unit, drawn.length_unit) == ("1e4 Msun/kpc^2", "kpc")
+    assert drawn.values.sum(dtype=float) * drawn.pixel**2 == pytest.approx(200, rel=1e-3)
+
+
+def test_conditions_may_have_units(tmp_path):
+    x = np.random.default_rng(3).uniform(0, 1, (100, 3))
+    temperature = np.linspace(1e6, 3e7, 100)
+    np.savez(tmp_path / "a.npz", pos=x, mass=np.ones(100), hsml=np.full(100, 0.1), temperature=temperature)
+    snapshot = splotchcl.Snapshot(tmp_path / "a.npz", read={"units": {"temperature": "K"}})
+    kelvin_per_kev = 1.602176634e-9 / 1.380649e-16
+    drawn = splotchcl.column(snapshot, where="temperature > 1 keV", center=(0.5, 0.5, 0.5), width=2,
+                             size=(32, 32), device="reference")
+    hot = np.count_nonzero(temperature > kelvin_per_kev)
+    assert drawn.values.sum(dtype=float) * drawn.pixel**2 == pytest.approx(hot, rel=1e-3)
+
+
+def test_halves_are_read(tmp_path):
+    x = np.random.default_rng(3).uniform(0, 1, (100, 3)).astype(np.float16)
+    np.save(tmp_path / "a.npy", x)
+    np.testing.assert_array_equal(splotchcl.Snapshot(tmp_path / "a.npy")["gas"]["position"], x)

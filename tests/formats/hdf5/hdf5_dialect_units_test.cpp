@@ -39,6 +39,15 @@ TEST_F(Hdf5Dialects, GizmosUnitsAreThoseOfItsHeader) {
 }
 
 // Clouds that form stars, in parsecs, solar masses and meters per second; their time is a time.
+TEST_F(Hdf5Dialects, UnitsInWordsCountWhereNothingElseStatesThem) {
+  {
+    const Hdf5Output file = create();
+    write_values(file, "PartType0/Masses", {1, 2});
+    write_text(file, "PartType0/Masses", "units", "Msun");
+  }
+  EXPECT_EQ(unit_of("mass"), "Msun");
+}
+
 TEST_F(Hdf5Dialects, GizmoHasNoScaleFactorWithoutCosmology) {
   {
     const Hdf5Output file = create();
