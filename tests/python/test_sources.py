@@ -127,6 +127,11 @@ def test_units_by_key_are_those_of_maps(tmp_path):
     assert drawn.values.sum(dtype=float) * drawn.pixel**2 == pytest.approx(200, rel=1e-3)
 
 
+def test_a_map_has_the_palette_of_its_keyword(universe):
+    drawn = splotchcl.column(universe, palette="magma", size=(8, 8), device="reference")
+    assert drawn.scene["map.palette"] == "magma"
+
+
 def test_conditions_may_have_units(tmp_path):
     x = np.random.default_rng(3).uniform(0, 1, (100, 3))
     temperature = np.linspace(1e6, 3e7, 100)
