@@ -64,7 +64,7 @@ std::string shortened(const std::string& title, std::size_t characters) {
 // Formulas may be longer than a small picture: their letters become smaller, and their end dots.
 ShadedText fitting_title(const std::string& title, const TextStyle& style, double size,
                          double room) {
-  constexpr double smallest = 0.6;
+  constexpr double smallest = 0.8;
   ShadedText text = style.draw(title, size);
   const double ratio = room / std::max(1, text.letters.box_width);
   if (ratio >= 1) return text;

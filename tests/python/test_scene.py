@@ -51,6 +51,12 @@ def test_a_formula_that_was_set_is_got(scene):
     assert scene["component.0.color.formula"] is None
 
 
+def test_completions_are_all_that_is_set_and_more(scene):
+    completions = scene._ipython_key_completions_()
+    assert set(scene) <= set(completions)
+    assert {"component.hot.gas.color.formula", "component.0.color.formula"} <= set(completions)
+
+
 def test_arrays_are_lists_of_numbers(scene):
     scene["image.background"] = np.array([0.5, 0.25, 0], np.float32)
     assert scene["image.background"] == [0.5, 0.25, 0]

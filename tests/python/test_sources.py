@@ -148,3 +148,31 @@ def test_halves_are_read(tmp_path):
     x = np.random.default_rng(3).uniform(0, 1, (100, 3)).astype(np.float16)
     np.save(tmp_path / "a.npy", x)
     np.testing.assert_array_equal(splotchcl.Snapshot(tmp_path / "a.npy")["gas"]["position"], x)
+
+
+def write_halo(folder, **more):
+    """A thousand particles, and beside them a list of haloes with one whose identifier is long."""
+    x = np.random.default_rng(3).uniform(0, 10000, (1000, 3))
+    np.savez(folder / "snap_003.npz", pos=x, mass=1.0, hsml=100.0, **more)
+    (folder / "out_3.list").write_text("#ID Mvir Rvir X Y Z\n18446744073709551615 1e12 2500 4 5 6\n")
+    return np.count_nonzero(np.linalg.norm(x - [4000, 5000, 6000], axis=1) <= 2500)
+
+
+def particles_of_halo(path, number, **read):
+    drawn = splotchcl.column(splotchcl.Snapshot(path, read=read), size=(8, 8), device="reference",
+                             settings={"component.0.select.halo": number})
+    return drawn._map.particles
+
+
+def test_a_halo_of_a_rockstar_list_is_a_sphere(tmp_path):
+    count = write_halo(tmp_path)
+    units = {"position": "kpc/h a"}
+    assert particles_of_halo(tmp_path / "snap_003.npz", str(2**64 - 1), units=units) == count
+    with pytest.raises(DataError, match="no halo 5"):
+        particles_of_halo(tmp_path / "snap_003.npz", 5, units=units)
+
+
+def test_a_halo_of_a_rockstar_list_needs_a_unit_of_lengths(tmp_path):
+    write_halo(tmp_path)
+    with pytest.raises(UsageError, match=r"sphere in Mpc/h a, but .*name it as read\.units"):
+        particles_of_halo(tmp_path / "snap_003.npz", str(2**64 - 1))

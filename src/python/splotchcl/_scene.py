@@ -177,9 +177,10 @@ class Scene(MutableMapping[str, Any]):
     def __str__(self) -> str:
         return self.to_toml()
 
-    # Each component's keys by its name, or its number where it has none.
+    # Each component's keys by its name and its number.
     def _ipython_key_completions_(self) -> list[str]:
-        names = [name or str(i) for i, name in enumerate(self._scene.component_names())]
+        own = self._scene.component_names()
+        names = [*filter(None, own), *(str(i) for i in range(len(own)))]
         keys = []
         for key in _core.scene_keys():
             table, _, rest = key.partition(".")
