@@ -127,18 +127,32 @@ std::string TypedOptions::with_option_first(const std::string& message) const {
   return option.empty() ? message : option + message.substr(end);
 }
 
-// Of 'component gas: color.field is "u", which'.
+// Of 'component gas: color.field is "u", which' and 'component gas: select.where: found', where it
+// is about what was typed.
 std::string TypedOptions::with_option_within(const std::string& message) const {
-  const std::string is = " is \"";
   for (const auto& [key, option] : keys_of_options) {
-    const std::string words = std::string(" ") + key + is;
-    const std::size_t place = message.find(words);
-    if (place == std::string::npos) continue;
-    const std::size_t value = place + words.size();
-    if (has_value(option, message.substr(value, message.find('"', value) - value)))
-      return message.substr(0, place + 1) + option + message.substr(value - is.size());
+    for (const std::string& end : {std::string(" is \""), std::string(": ")}) {
+      const std::string words = std::string(" ") + key + end;
+      const std::size_t place = message.find(words);
+      if (place == std::string::npos) continue;
+      const std::size_t rest = place + words.size();
+      const bool is_typed =
+          end == ": " ? is_quoted_in(option, message.substr(rest))
+                      : has_value(option, message.substr(rest, message.find('"', rest) - rest));
+      if (is_typed)
+        return message.substr(0, place + 1) + option + message.substr(rest - end.size());
+    }
   }
   return message;
+}
+
+// Whether the message quotes what the option was given.
+bool TypedOptions::is_quoted_in(const std::string& option, const std::string& message) const {
+  const auto found = values_.find(option);
+  return found != values_.end() &&
+         std::any_of(found->second.begin(), found->second.end(), [&](const std::string& text) {
+           return message.find('"' + text + '"') != std::string::npos;
+         });
 }
 
 // Of "component with select.halo 3: particles", where --center halo=3 asks for the place.

@@ -26,6 +26,7 @@ class TypedOptions {
   bool has(const std::string& option) const { return values_.count(option) > 0; }
   // Whether the option was given this, alone or within more.
   bool has_value(const std::string& option, const std::string& value) const;
+  bool is_quoted_in(const std::string& option, const std::string& message) const;
   bool sets(const std::string& key) const;
   std::string option_of(const std::string& key) const;
   std::string without_setting(const std::string& message) const;

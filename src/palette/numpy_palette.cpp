@@ -44,8 +44,21 @@ StoredValues values_of(const std::string& bytes, const NumpyHeader& header,
   return values;
 }
 
-bool are_whole_numbers(ValueKind kind) {
-  return kind != ValueKind::float16 && kind != ValueKind::float32 && kind != ValueKind::float64;
+bool is_float(ValueKind kind) {
+  return kind == ValueKind::float16 || kind == ValueKind::float32 || kind == ValueKind::float64;
+}
+
+// Whether colors are whole numbers up to 255, also where they are kept as floats.
+bool are_bytes(const StoredValues& values) {
+  bool is_any_large = !is_float(values.kind);
+  for (std::uint64_t row = 0; row < values.particles; ++row) {
+    for (int c = 0; c < values.values_per_particle; ++c) {
+      const double value = value_at(values, row, c);
+      if (value != std::floor(value)) return false;
+      is_any_large = is_any_large || value > 1;
+    }
+  }
+  return is_any_large;
 }
 
 }  // namespace
@@ -57,7 +70,7 @@ std::optional<Palette> read_numpy_palette(const std::string& bytes, const std::s
   if (!may_be_colors(header))
     refuse_array(name, fmt::format("an array of the shape {}", fmt::join(header.shape, " x ")));
   const StoredValues values = values_of(bytes, header, name);
-  const double white = are_whole_numbers(values.kind) ? 255 : 1;
+  const double white = are_bytes(values) ? 255 : 1;
   Palette palette;
   palette.name = name;
   for (std::uint64_t row = 0; row < header.rows(); ++row) {

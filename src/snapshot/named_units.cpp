@@ -26,9 +26,30 @@ FieldUnit parse_field_unit(const std::string& text) {
   return {text.substr(0, sign), text.substr(sign + 1)};
 }
 
+struct KindOfField {
+  const char* field;
+  std::vector<const char*> units;  // of which one has the dimension
+};
+
 // Whatever a and h are.
 void check_unit(const FieldUnit& named) {
-  parse_unit(named.unit, UnitFactors{1, 1}, "read.units." + named.field);
+  static const std::vector<KindOfField> kinds = {
+      {"position", {"cm"}},      {"smoothing_length", {"cm"}},   {"softening", {"cm"}},
+      {"mass", {"g"}},           {"velocity", {"cm/s"}},         {"density", {"g/cm^3"}},
+      {"volume", {"cm^3"}},      {"internal_energy", {"erg/g"}}, {"temperature", {"K", "erg"}},
+      {"pressure", {"erg/cm^3"}}};
+  const UnitFactors any = {1, 1};
+  const std::string key = "read.units." + named.field;
+  const Unit unit = parse_unit(named.unit, any, key);
+  for (const KindOfField& kind : kinds) {
+    if (canonical_field_name(named.field) != kind.field) continue;
+    const bool fits = std::any_of(kind.units.begin(), kind.units.end(), [&](const char* like) {
+      return same_dimension(unit, parse_unit(like, any, key));
+    });
+    if (fits) return;
+    throw UsageError(fmt::format("{}: found {}, expected a unit such as {}", key, named.unit,
+                                 kind.units.front()));
+  }
 }
 
 [[noreturn]] void refuse_field(const FieldUnit& named, const SnapshotInfo& info) {

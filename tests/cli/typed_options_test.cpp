@@ -40,6 +40,8 @@ TEST_F(TypedOptions, AreNamedWhereNoParticleHasTheirField) {
   EXPECT_THAT(error_of("map s.hdf5 -o m.npy --quantity nothing"),
               HasSubstr("--quantity is \"nothing\""));
   EXPECT_THAT(error_of("render s.hdf5 --where 'nothing > 3'"), HasSubstr("--where is \"nothing\""));
+  EXPECT_THAT(error_of("render s.hdf5 --where 'x < 2 Mpc'"),
+              HasSubstr("component gas: --where: found 2 Mpc"));
 }
 
 TEST_F(TypedOptions, AreNamedWhereNothingTellsAHalo) {

@@ -124,6 +124,13 @@ TEST(OtherPalettes, OfNumpyAreArraysOfColors) {
   EXPECT_THAT(palette.emission[1], ElementsAre(0.4F, 0, 0));
 }
 
+TEST(OtherPalettes, OfNumpyMayBeWholeFloats) {
+  const float values[] = {0, 51, 255};
+  const std::string bytes(reinterpret_cast<const char*>(values), sizeof values);
+  const Palette palette = parse_palette(numpy_array("<f4", "(1, 3)", bytes), "a.npy");
+  EXPECT_THAT(palette.emission.front(), ElementsAre(0, 0.2F, 1));
+}
+
 TEST(OtherPalettes, OfNumpyThatAreNoColorsAreRefused) {
   EXPECT_THAT(refusal_of_palette(numpy_array("|u1", "(3, 2)", "abcdef"), "a.npy"),
               HasSubstr("an array of the shape 3 x 2"));

@@ -101,6 +101,8 @@ TEST_F(TextForm, UnitsOfOtherFieldsAndOtherUnitsAreRefused) {
   EXPECT_THAT(refusal_of(table, {{}, 0, {"weight=kg"}}),
               AllOf(HasSubstr("read.units: found weight"), HasSubstr("some of mass, position")));
   EXPECT_THAT(refusal_of(table, {{}, 0, {"mass=stone"}}), HasSubstr("read.units.mass"));
+  EXPECT_THAT(refusal_of(table, {{}, 0, {"position=kg"}}),
+              HasSubstr("read.units.position: found kg, expected a unit such as cm"));
 }
 
 TEST_F(TextForm, RowsOfOtherLengthsBeforeTheNamedOnesAreLeftOut) {
