@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -84,15 +86,46 @@ void name_unit(const FieldUnit& named, SnapshotInfo& info) {
                                    named.field, named.unit, fmt::join(stated, ", ")));
 }
 
-// Its numbers stay as they are.
+// What smoothing lengths of each type have to be multiplied by to be in the unit of positions.
+using SizeFactors = std::map<int, double>;
+
+SizeFactors factors_of_sizes(SnapshotInfo& info) {
+  constexpr double rounding = 1e-6;
+  SizeFactors factors;
+  for (ParticleTypeInfo& type : info.types) {
+    const FieldInfo* const position = find_field(type, "position");
+    FieldInfo* const size = find_own(type, "smoothing_length");
+    if (position == nullptr || size == nullptr) continue;
+    const auto ratio = ratio_of_known_units(size->unit, position->unit, unit_factors(info));
+    if (!ratio || std::abs(*ratio - 1) < rounding) continue;
+    info.notes.push_back(fmt::format("smoothing_length of type {} is converted from {} to {}",
+                                     type.type, size->unit, position->unit));
+    size->unit = position->unit;
+    factors[type.type] = *ratio;
+  }
+  return factors;
+}
+
+Column multiplied(const Column& column, double factor) {
+  if (!column.is_array()) return Column::uniform(static_cast<float>(factor * column[0]));
+  std::vector<float> values(column.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<float>(factor * static_cast<double>(column[i]));
+  return Column::owning(std::move(values));
+}
+
 class NamedUnitsSnapshot : public Snapshot {
  public:
-  NamedUnitsSnapshot(std::unique_ptr<Snapshot> snapshot, SnapshotInfo info)
-      : snapshot_(std::move(snapshot)), info_(std::move(info)) {}
+  NamedUnitsSnapshot(std::unique_ptr<Snapshot> snapshot, SnapshotInfo info, SizeFactors factors)
+      : snapshot_(std::move(snapshot)), info_(std::move(info)), factors_(std::move(factors)) {}
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override {
-    return snapshot_->read(type, field);
+    const Column values = snapshot_->read(type, field);
+    const auto factor = factors_.find(type);
+    if (factor == factors_.end()) return values;
+    const FieldInfo* const size = find_field(*info_.find_type(type), "smoothing_length");
+    return &require_field(info_, type, field) == size ? multiplied(values, factor->second) : values;
   }
   std::vector<std::uint64_t> read_ids(int type) const override { return snapshot_->read_ids(type); }
   std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override {
@@ -106,17 +139,20 @@ class NamedUnitsSnapshot : public Snapshot {
  private:
   std::unique_ptr<Snapshot> snapshot_;
   SnapshotInfo info_;
+  SizeFactors factors_;
 };
 
 }  // namespace
 
 std::unique_ptr<Snapshot> with_named_units(std::unique_ptr<Snapshot> snapshot,
                                            const std::vector<std::string>& units) {
-  if (units.empty()) return snapshot;
   SnapshotInfo info = snapshot->info();
   for (const std::string& text : units)
     name_unit(parse_field_unit(text), info);
-  return std::make_unique<NamedUnitsSnapshot>(std::move(snapshot), std::move(info));
+  SizeFactors factors = factors_of_sizes(info);
+  if (units.empty() && factors.empty()) return snapshot;
+  return std::make_unique<NamedUnitsSnapshot>(std::move(snapshot), std::move(info),
+                                              std::move(factors));
 }
 
 }  // namespace splotchcl
