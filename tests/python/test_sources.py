@@ -176,3 +176,25 @@ def test_a_halo_of_a_rockstar_list_needs_a_unit_of_lengths(tmp_path):
     write_halo(tmp_path)
     with pytest.raises(UsageError, match=r"sphere in Mpc/h a, but .*name it as read\.units"):
         particles_of_halo(tmp_path / "snap_003.npz", str(2**64 - 1))
+
+
+def test_files_of_a_set_in_different_units_are_refused(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    for member, unit in enumerate(["Msun", "kg"]):
+        with h5py.File(tmp_path / f"s.{member}.hdf5", "w") as file:
+            header = {"NumPart_ThisFile": [5, 0, 0, 0, 0, 0], "NumPart_Total": [10, 0, 0, 0, 0, 0],
+                      "NumFilesPerSnapshot": 2}
+            file.create_group("Header").attrs.update(header)
+            file["PartType0/Coordinates"] = np.ones((5, 3))
+            file["PartType0/Masses"] = np.ones(5)
+            file["PartType0/Masses"].attrs["units"] = unit
+    gas = Snapshot(tmp_path / "s.0.hdf5")["gas"]
+    assert gas["position"].shape == (10, 3)
+    with pytest.raises(DataError, match=r's\.1\.hdf5: .*Masses is in "kg", but in "Msun" in s\.0\.hdf5'):
+        gas["mass"]
+
+
+def test_complex_numbers_are_refused(tmp_path):
+    np.save(tmp_path / "a.npy", np.ones((5, 3), complex))
+    with pytest.raises(DataError, match=r"no real numbers.*array\.real"):
+        Snapshot(tmp_path / "a.npy")
