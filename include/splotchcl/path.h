@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -48,7 +49,7 @@ struct Follow {
   // that is counted from the middle turns.
   enum class Up { camera, angular_momentum };
 
-  std::optional<int> halo;              // of a catalog
+  std::optional<std::uint64_t> halo;    // of a catalog
   std::string catalog;                  // empty: the snapshot's field, else one beside it
   std::optional<Vec3> sphere_center;    // without halo; unset: the densest place
   std::optional<double> sphere_radius;  // > 0; unset: of a sphere 200 times as dense as the mean

@@ -12,6 +12,8 @@ struct ReadSettings {
   // that is not needed. Or NAME=COLUMN for each that the file calls by another name: in HDF5 the
   // path of a dataset. Empty: the file's own.
   std::vector<std::string> columns;
+  // FIELD=UNIT for each field whose unit the file does not say, or says wrongly. Numbers stay.
+  std::vector<std::string> units;
   // Lines at the beginning of a text table that are no part of it; >= 0.
   int skip_lines = 0;
 

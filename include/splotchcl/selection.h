@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ struct ParticleSet {
   std::vector<std::string> where;
   std::string id_file;  // identifiers: a text file, one on a line, or an array of NumPy
   // The number of a halo, as the snapshot's field of group ids or the catalog has it.
-  std::optional<int> halo;
+  std::optional<std::uint64_t> halo;
   std::string halo_catalog;  // empty: the snapshot's field, else a catalog beside it
   // Faces belong to the box, the surface to the sphere.
   std::optional<Vec3> box_minimum, box_maximum;

@@ -19,6 +19,8 @@ struct SnapshotOptions {
   std::vector<std::string> columns;
   // Lines at the beginning of a text table that are no part of it.
   int skip_lines = 0;
+  // FIELD=UNIT, as ReadSettings has them.
+  std::vector<std::string> units = {};
 };
 
 // Recognises the format by content (docs/formats.md). `path` may be any member or the base name of

@@ -475,6 +475,8 @@ int run_command_line(int argc, char** argv, Console& console) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     throw UsageError(explain(error, app));
   }
+  for (const CLI::App* command : app.get_subcommands())
+    console.set_options(TypedOptions(*command));
   console.set_verbosity(chosen_verbosity(is_verbose, is_quiet));
   return run();
 }

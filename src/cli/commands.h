@@ -16,7 +16,7 @@
 // standard output, everything else through the console. The result is the exit code.
 namespace splotchcl::cli {
 
-// What render, movie and map have in common.
+// What render, movie, map and view have in common.
 struct DrawOptions {
   std::filesystem::path scene;  // a scene file or a snapshot
   std::string device;
@@ -56,11 +56,7 @@ struct PublishOptions : DrawOptions {
 };
 int run_publish(const PublishOptions& options, Console& console);
 
-struct ViewOptions {
-  std::filesystem::path scene;
-  std::string device;
-  std::vector<std::string> settings;  // key=value
-  std::optional<std::string> size;    // WIDTHxHEIGHT
+struct ViewOptions : DrawOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  // 0: one that is free
 };

@@ -121,7 +121,7 @@ void Console::note_each_once(const std::vector<std::string>& notes) {
 void Console::error(const std::string& text) {
   reporter_.reset();
   clear_status();
-  log_->logger.error("{}", one_line(text));
+  log_->logger.error("{}", one_line(options_.named_in(text)));
 }
 
 void Console::status(const std::string& text) {

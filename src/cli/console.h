@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cli/typed_options.h"
+
 namespace splotchcl::cli {
 
 enum class Verbosity {
@@ -25,6 +27,8 @@ class Console {
   Console& operator=(const Console&) = delete;
 
   void set_verbosity(Verbosity verbosity);
+  // What errors name in place of keys.
+  void set_options(const TypedOptions& options) { options_ = options; }
 
   void note(const std::string& text);  // splotchcl: note: text
   void note_each_once(const std::vector<std::string>& notes);
@@ -44,6 +48,7 @@ class Console {
 
   std::unique_ptr<Log> log_;
   Verbosity verbosity_ = Verbosity::normal;
+  TypedOptions options_;
   bool is_terminal_;
   bool has_status_ = false;
   std::string last_stage_;

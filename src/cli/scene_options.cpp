@@ -54,9 +54,6 @@ void add_drawing(CLI::App& sub, DrawOptions& options) {
                  wrapped("Part of an OpenCL device's name; splotchcl devices lists them. Default: "
                          "a GPU if there is one"))
       ->type_name("NAME");
-  sub.add_flag(
-      "--reference", options.reference,
-      wrapped("Draw with the slow reference renderer in double precision instead of a device"));
   sub.add_option("--set", options.settings, wrapped("Set a key of the scene; can be repeated"))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
@@ -64,10 +61,17 @@ void add_drawing(CLI::App& sub, DrawOptions& options) {
 
 }  // namespace
 
-void add_scene_options(CLI::App& sub, DrawOptions& options) {
+void add_live_options(CLI::App& sub, DrawOptions& options) {
   add_choices(sub, options);
   add_reading(sub, options);
   add_drawing(sub, options);
+}
+
+void add_scene_options(CLI::App& sub, DrawOptions& options) {
+  add_live_options(sub, options);
+  sub.add_flag(
+      "--reference", options.reference,
+      wrapped("Draw with the slow reference renderer in double precision instead of a device"));
 }
 
 }  // namespace splotchcl::cli

@@ -5,6 +5,7 @@
 
 #include "cli/command_builder.h"
 #include "cli/commands.h"
+#include "cli/scene_options.h"
 #include "common/unfinished_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/open_scene.h"
@@ -28,20 +29,14 @@ void add_view(CLI::App& app, Run& run, Console& console) {
                           "the network in, who can see the token on its way"))
       ->type_name("ADDRESS")
       ->capture_default_str();
-  sub->add_option("--device", options->device,
-                  wrapped("Part of an OpenCL device's name; splotchcl devices lists them"))
-      ->type_name("NAME");
-  sub->add_option("--set", options->settings, wrapped("Set a key of the scene; can be repeated"))
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  sub->add_option("--size", options->size, wrapped("Width and height of the picture, in pixels"))
-      ->type_name("WIDTHxHEIGHT");
+  add_live_options(*sub, *options);
   sub->footer(
       "Prints the page's address, which holds a secret token, and serves it until Ctrl-C.\n"
       "For a remote machine run splotchcl view FILE --port 8765 there and\n"
       "ssh -L 8765:127.0.0.1:8765 MACHINE here, and open the address printed there.\n"
       "Examples:\n"
       "  splotchcl view snapshot_006\n"
+      "  splotchcl view snapshot_006 --types gas --center densest --width 4Mpc\n"
       "  splotchcl view scene.toml --port 8765");
 }
 
@@ -58,12 +53,6 @@ constexpr std::chrono::milliseconds patience_at_the_end(1000);
 
 bool is_own_address(const std::string& address) {
   return address.rfind("127.", 0) == 0 || address == "::1";
-}
-
-std::vector<std::string> settings_of(const ViewOptions& options) {
-  std::vector<std::string> settings = options.settings;
-  if (options.size) settings.push_back("image.size=" + *options.size);
-  return settings;
 }
 
 }  // namespace

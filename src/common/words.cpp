@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -33,6 +34,14 @@ std::optional<double> parse_number(const std::string& text) {
   const auto [rest, error] = fast_float::from_chars(begin, end, value);
   if (error != std::errc() || rest != end) return std::nullopt;
   return value;
+}
+
+std::optional<std::uint64_t> parse_whole_number(std::string_view text) {
+  std::uint64_t number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  const bool is_all = error == std::errc() && rest == end;
+  return is_all ? std::optional(number) : std::nullopt;
 }
 
 namespace {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace splotchcl {
@@ -18,6 +20,9 @@ std::string lower_ending(const std::filesystem::path& path);
 
 // The number that is all of the text, finite or not; a plus sign may stand before it.
 std::optional<double> parse_number(const std::string& text);
+
+// The whole number that is all of the text, in digits alone; none beyond 2^64 - 1.
+std::optional<std::uint64_t> parse_whole_number(std::string_view text);
 
 // The candidate that `name` is most likely a misspelling of, or none when nothing is
 // near: more than a third of its letters would have to change. Case counts little.

@@ -51,11 +51,37 @@ Overlay make_scale_bar(const ScaleBarSettings& settings, const Frame& frame,
 
 namespace {
 
+// Of the text before a unit as many characters as asked for, and dots for the rest.
+std::string shortened(const std::string& title, std::size_t characters) {
+  const std::size_t unit = std::min(title.rfind(" ["), title.size());
+  std::size_t end = std::min(characters, unit);
+  constexpr unsigned char continues = 0x80, mask = 0xc0;  // of UTF-8
+  while (end > 0 && (static_cast<unsigned char>(title[end]) & mask) == continues)
+    --end;
+  return title.substr(0, end) + "..." + title.substr(unit);
+}
+
+// Formulas may be longer than a small picture: their letters become smaller, and their end dots.
+ShadedText fitting_title(const std::string& title, const TextStyle& style, double size,
+                         double room) {
+  constexpr double smallest = 0.8;
+  ShadedText text = style.draw(title, size);
+  const double ratio = room / std::max(1, text.letters.box_width);
+  if (ratio >= 1) return text;
+  const double smaller = size * std::max(smallest, ratio);
+  text = style.draw(title, smaller);
+  for (std::size_t left = title.size(); left > 1 && text.letters.box_width > room; --left)
+    text = style.draw(shortened(title, left - 1), smaller);
+  return text;
+}
+
 // One bar with all that is written beside it, before it has a position. Along the bar are
 // pixels from its low end; across, pixels from its side without numbers.
 class ColorBar {
  public:
-  ColorBar(const ColorBarContent& content, double length, bool upright, const TextStyle& style)
+  // `room`: for the title along the bar.
+  ColorBar(const ColorBarContent& content, double length, double room, bool upright,
+           const TextStyle& style)
       : palette_(content.palette), length_(std::round(length)), upright_(upright), style_(style) {
     const double size = style.size();
     thickness_ = std::round(0.85 * size);
@@ -67,7 +93,7 @@ class ColorBar {
       widest_ = std::max(widest_, marks_.back().label.letters.box_width);
       highest_ = std::max(highest_, marks_.back().label.letters.box_height);
     }
-    title_ = style.draw(content.title, number_size());
+    title_ = fitting_title(content.title, style, number_size(), room);
     if (upright) title_ = turned(title_);
   }
 
@@ -274,10 +300,12 @@ std::vector<Overlay> make_color_bars(const std::vector<ColorBarContent>& content
         "expected more; make it larger or finish.text_size smaller",
         settings.length, std::max(0.0, length), contents.size()));
   }
+  constexpr double part_of_side = 0.9;
+  const double room = std::max(length, (part_of_side * side - gap * (count - 1)) / count);
   std::vector<ColorBar> bars;
   double width = 0, height = 0;
   for (std::size_t i = 0; i < contents.size(); ++i) {
-    bars.emplace_back(contents[i], length, upright, style);
+    bars.emplace_back(contents[i], length, room, upright, style);
     const double between = i > 0 ? gap : 0;
     width = upright ? std::max(width, bars[i].width()) : width + bars[i].width() + between;
     height = upright ? height + bars[i].height() + between : std::max(height, bars[i].height());

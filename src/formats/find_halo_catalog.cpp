@@ -44,11 +44,22 @@ fs::path catalog_in(const fs::path& place, const std::string& number) {
   return {};
 }
 
-// snapshot_033.AHF_particles, snapshot_033.z0.000.AHF_particles: the only one of a snapshot.
-fs::path ahf_beside(const fs::path& snapshot) {
+// Rockstar's, which counts snapshots with and without zeros before: particles before lists.
+fs::path rockstar_in(const fs::path& place, const std::string& number) {
+  const std::size_t digits = std::min(number.find_first_not_of('0'), number.size() - 1);
+  for (const std::string& own : {number, number.substr(digits)}) {
+    for (const std::string& name :
+         {"halos_" + own + ".0.particles", "halos_" + own + ".particles", "out_" + own + ".list"}) {
+      if (is_file(place / name)) return place / name;
+    }
+  }
+  return {};
+}
+
+// snapshot_033.AHF_particles, snapshot_033.z0.000.AHF_halos: the only one of a snapshot.
+fs::path ahf_beside(const fs::path& snapshot, const std::string& ending) {
   std::string start = snapshot.filename().string();
   start.resize(std::min(start.find('.'), start.size()));
-  const std::string ending = ".AHF_particles";
   fs::path found;
   std::error_code error;
   const fs::path folder = snapshot.has_parent_path() ? snapshot.parent_path() : fs::path(".");
@@ -79,8 +90,16 @@ std::optional<fs::path> find_halo_catalog(const fs::path& snapshot) {
       if (!catalog.empty() && catalog != snapshot) return catalog;
     }
   }
-  fs::path list = ahf_beside(snapshot);
-  return list.empty() ? std::nullopt : std::optional(std::move(list));
+  for (const char* const ending : {".AHF_particles", ".AHF_halos"}) {
+    fs::path list = ahf_beside(snapshot, ending);
+    if (!list.empty()) return list;
+  }
+  if (number.empty()) return std::nullopt;
+  for (const char* const place : {"", "rockstar", "rockstar_halos", "halos"}) {
+    fs::path list = rockstar_in(folder / place, number);
+    if (!list.empty() && list != snapshot) return list;
+  }
+  return std::nullopt;
 }
 
 }  // namespace splotchcl

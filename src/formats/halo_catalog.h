@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
+
+#include "splotchcl/vector.h"
 
 namespace splotchcl {
 
@@ -13,11 +16,19 @@ struct PlaceRange {
   std::uint64_t count = 0;
 };
 
-// The particles of one type in a halo: by their places in increasing order, or by identifiers in
-// increasing order, whichever the catalog has.
+// Where a halo is and how far it reaches, in a unit that may have the factors a and h.
+struct HaloSphere {
+  Vec3 center = {{0, 0, 0}};
+  double radius = 0;
+  std::string unit;
+};
+
+// The particles of one type in a halo: by their places in increasing order, by identifiers in
+// increasing order, or all within a sphere, whichever the catalog has.
 struct HaloMembers {
   std::vector<PlaceRange> places;
   std::optional<std::vector<std::uint64_t>> ids;
+  std::optional<HaloSphere> sphere;
 
   bool has_place(std::uint64_t place) const;
 };
@@ -26,11 +37,12 @@ struct HaloMembers {
 // 0; the snapshot has its particles in the order of haloes), a membership file of SOAP
 // (GroupNr_bound of each particle) or its halo_properties with that beside it, or VELOCIraptor's
 // catalog_groups with the catalog_particles beside it (counted from 1); as text AHF's or Rockstar's
-// (halo_lists.h). `path` is any file of a catalog in several. Throws DataError.
+// (halo_lists.h, halo_spheres.h). `path` is any file of a catalog in several; CATALOG/Subhalo
+// counts the subhaloes of SUBFIND from 0. Throws DataError.
 HaloMembers read_halo(const std::filesystem::path& path, std::uint64_t number, int type);
 
 // The catalog of a snapshot by its usual name and place: SUBFIND's or FOF's beside the snapshot or
-// in a folder groups_NNN, SOAP's membership file, AHF's particles. None where there is none.
+// in a folder groups_NNN, SOAP's membership file, AHF's, Rockstar's. None where there is none.
 std::optional<std::filesystem::path> find_halo_catalog(const std::filesystem::path& snapshot);
 
 }  // namespace splotchcl

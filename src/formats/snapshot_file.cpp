@@ -7,6 +7,7 @@
 
 #include "formats/snapshot_format.h"
 #include "snapshot/field_names.h"
+#include "snapshot/named_units.h"
 #include "snapshot/snapshot_files.h"
 #include "snapshot/subset_snapshot.h"
 #include "splotchcl/error.h"
@@ -44,6 +45,8 @@ const char* find_familiar(std::string_view content) {
       {"\x76\x2f\x31\x01"sv, "an EXR image"},
       {"II*\0"sv, "a TIFF image"},
       {"%PDF"sv, "a PDF document"},
+      {"\xff\xfe"sv, "text in UTF-16; save it as UTF-8"},
+      {"\xfe\xff"sv, "text in UTF-16; save it as UTF-8"},
       {"\x7f\x45LF"sv, "a program"},
       {"SIMPLE  ="sv, "a FITS file; convert it to HDF5 or to a NumPy array"}};
   for (const FamiliarFile& other : known) {
@@ -227,9 +230,10 @@ const SnapshotFormat* find_format(const fs::path& path) {
 }
 
 std::unique_ptr<Snapshot> open_snapshot(const fs::path& path, const SnapshotOptions& options) try {
-  if (fs::is_directory(path)) return open_folder(path, options);
+  if (fs::is_directory(path)) return with_named_units(open_folder(path, options), options.units);
   const bool is_there = fs::exists(path) || path_in_file(path);
-  return open_file(is_there ? path : find_by_base_name(path), options);
+  return with_named_units(open_file(is_there ? path : find_by_base_name(path), options),
+                          options.units);
 } catch (const fs::filesystem_error& error) {
   throw DataError(fmt::format("{}: cannot be read: {}; check the path and its permissions",
                               path.string(), error.code().message()));
@@ -238,7 +242,7 @@ std::unique_ptr<Snapshot> open_snapshot(const fs::path& path, const SnapshotOpti
 std::unique_ptr<Snapshot> open_snapshot_for(const std::filesystem::path& path,
                                             const ReadSettings& read) {
   std::unique_ptr<Snapshot> whole =
-      open_snapshot(path, SnapshotOptions{read.columns, read.skip_lines});
+      open_snapshot(path, SnapshotOptions{read.columns, read.skip_lines, read.units});
   if (read.every == 1 && !read.max_particles) return whole;
   return std::make_unique<SubsetSnapshot>(std::move(whole), read);
 }

@@ -1,7 +1,9 @@
 #include "formats/stored_values.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -12,6 +14,19 @@ namespace splotchcl {
 namespace {
 
 struct SixBytes {};  // stands for uint48 where a type is asked for
+struct HalfFloat {};
+
+float float_of_half(std::uint16_t bits) {
+  const int exponent = (bits >> 10) & 31, fraction = bits & 1023;
+  const float sign = (bits >> 15) != 0 ? -1.0F : 1.0F;
+  if (exponent == 31) {
+    return fraction == 0 ? sign * std::numeric_limits<float>::infinity()
+                         : std::numeric_limits<float>::quiet_NaN();
+  }
+  const bool is_subnormal = exponent == 0;
+  const int mantissa = is_subnormal ? fraction : fraction + 1024;
+  return sign * std::ldexp(static_cast<float>(mantissa), (is_subnormal ? 1 : exponent) - 25);
+}
 
 template <typename T>
 T load_as(const std::byte* bytes, bool is_swapped) {
@@ -30,6 +45,8 @@ auto load(const std::byte* bytes, bool is_swapped) {
     const bool is_big = is_swapped == is_little_endian_host();
     std::memcpy(is_big ? wide + 2 : wide, bytes, 6);
     return load_as<std::uint64_t>(wide, is_swapped);
+  } else if constexpr (std::is_same_v<T, HalfFloat>) {
+    return float_of_half(load_as<std::uint16_t>(bytes, is_swapped));
   } else {
     return load_as<T>(bytes, is_swapped);
   }
@@ -39,6 +56,8 @@ auto load(const std::byte* bytes, bool is_swapped) {
 template <typename Use>
 auto with_value_type(ValueKind kind, Use&& use) {
   switch (kind) {
+    case ValueKind::float16:
+      return use(static_cast<const HalfFloat*>(nullptr));
     case ValueKind::float32:
       return use(static_cast<const float*>(nullptr));
     case ValueKind::float64:
@@ -204,12 +223,37 @@ Column make_streamed_column(const std::vector<StoredValues>& parts, const Vec3& 
   return converted(std::move(column), true);
 }
 
+namespace {
+
+// Up to which a kind of floats has all whole numbers; 0: it is none.
+double largest_whole(ValueKind kind) {
+  if (kind == ValueKind::float16) return 2048;
+  if (kind == ValueKind::float32) return 16777216;
+  return kind == ValueKind::float64 ? 9007199254740992 : 0;
+}
+
+// False for others.
+bool append_whole_floats(const StoredValues& part, double largest,
+                         std::vector<std::uint64_t>& values) {
+  for (std::uint64_t i = 0; i < part.particles; ++i) {
+    const double value = value_at(part, i, 0);
+    if (!(value >= 0 && value <= largest && value == std::floor(value))) return false;
+    values.push_back(static_cast<std::uint64_t>(value));
+  }
+  return true;
+}
+
+}  // namespace
+
 std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<StoredValues>& parts) {
   std::vector<std::uint64_t> values;
   for (const StoredValues& part : parts) {
-    const bool is_integer = part.kind != ValueKind::float32 && part.kind != ValueKind::float64;
-    if (!is_integer || part.values_per_particle != 1) return std::nullopt;
+    if (part.values_per_particle != 1) return std::nullopt;
     part.file->check_size();
+    if (const double largest = largest_whole(part.kind); largest > 0) {
+      if (!append_whole_floats(part, largest, values)) return std::nullopt;
+      continue;
+    }
     const std::byte* particle = part.file->data() + part.offset;
     with_value_type(part.kind, [&](auto* type) {
       using T = std::remove_cv_t<std::remove_pointer_t<decltype(type)>>;

@@ -13,6 +13,7 @@ namespace splotchcl {
 
 // uint48: six bytes, as some codes store identifiers.
 enum class ValueKind {
+  float16,
   float32,
   float64,
   int8,
@@ -30,6 +31,7 @@ constexpr std::size_t size_of(ValueKind kind) {
     case ValueKind::int8:
     case ValueKind::uint8:
       return 1;
+    case ValueKind::float16:
     case ValueKind::int16:
     case ValueKind::uint16:
       return 2;
@@ -77,7 +79,8 @@ Column make_column(const std::vector<StoredValues>& parts, const Vec3& origin = 
 Column make_streamed_column(const std::vector<StoredValues>& parts,
                             const Vec3& origin = {{0, 0, 0}});
 
-// Whole numbers, exact, the parts one after the other; empty when a part holds none.
+// Whole numbers, exact, the parts one after the other; empty when a part holds none. Floats that
+// are whole numbers count, as far as their precision has all of these.
 std::optional<std::vector<std::uint64_t>> make_integers(const std::vector<StoredValues>& parts);
 
 // One value in double; `particle` and `axis` must exist.

@@ -54,6 +54,7 @@ class FieldTable {
   std::optional<TableField> find_vector(std::size_t first, std::vector<bool>& used,
                                         SnapshotInfo& info) const;
   std::vector<double> factors_of_axes(const TableField& field, SnapshotInfo& info) const;
+  std::vector<bool> find_repeated(SnapshotInfo& info) const;
   void find_fields(SnapshotInfo& info);
   void name_table_fields(SnapshotInfo& info);
 
@@ -144,8 +145,23 @@ void FieldTable::convert_to(UnitsOfFields& units, int type, SnapshotInfo& info) 
     to_common(field, field.info.name == "smoothing_length" ? "position" : field.info.name);
 }
 
+// Columns with the name of one before them.
+std::vector<bool> FieldTable::find_repeated(SnapshotInfo& info) const {
+  std::vector<bool> repeated(names_.size(), false);
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const auto own = names_.begin() + static_cast<std::ptrdiff_t>(i);
+    repeated[i] = std::any_of(names_.begin(), own, [&](const NameAndUnit& before) {
+      return !before.name.empty() && before.name == own->name;
+    });
+    if (!repeated[i]) continue;
+    info.notes.push_back(fmt::format("column {} left out, as it has the name of an earlier one, {}",
+                                     i + 1, own->name));
+  }
+  return repeated;
+}
+
 void FieldTable::find_fields(SnapshotInfo& info) {
-  std::vector<bool> used(names_.size(), false);
+  std::vector<bool> used = find_repeated(info);
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (used[i]) continue;
     if (auto vector = find_vector(i, used, info)) fields_.push_back(std::move(*vector));

@@ -70,6 +70,23 @@ std::optional<std::size_t> find_positions(const std::vector<TableColumn>& column
   return std::nullopt;
 }
 
+std::string lost_axis(const std::vector<TableColumn>& columns,
+                      const std::vector<std::string>& left_out) {
+  std::vector<TableColumn> all = columns;
+  for (const std::string& name : left_out)
+    all.push_back({name, 1});
+  const auto first = find_positions(all);
+  if (!first || all[*first].values_per_row != 1) return {};
+  const std::string x = split_unit(all[*first].name).name;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string name = with_axis(x, axis);
+    for (const std::string& lost : left_out) {
+      if (split_unit(lost).name == name) return lost;
+    }
+  }
+  return {};
+}
+
 std::optional<std::size_t> guess_positions(const std::vector<TableColumn>& columns) {
   if (find_positions(columns)) return std::nullopt;
   std::optional<std::size_t> only;

@@ -31,6 +31,11 @@ std::string with_axis(std::string column, int axis);
 // The column that positions are in, by its name: also the first of three axes.
 std::optional<std::size_t> find_positions(const std::vector<TableColumn>& columns);
 
+// Which axis of the positions is among what is left out; empty where none is. Without it the
+// positions would be others.
+std::string lost_axis(const std::vector<TableColumn>& columns,
+                      const std::vector<std::string>& left_out);
+
 // Where none has such a name: the only column of three values that is nothing else by its name.
 std::optional<std::size_t> guess_positions(const std::vector<TableColumn>& columns);
 

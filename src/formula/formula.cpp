@@ -29,6 +29,12 @@ bool Formula::may_be(const std::string& text) {
          text.find(" and ") != std::string::npos || text.find(" or ") != std::string::npos;
 }
 
+void Formula::replace_number(std::size_t part, double number) {
+  parts_[part].number = number;
+  parts_[part].whole.reset();
+  parts_[part].unit.clear();
+}
+
 std::string Formula::text_of(const FormulaPart& part) const {
   return trimmed(text_.substr(part.begin, part.end - part.begin));
 }

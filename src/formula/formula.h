@@ -39,6 +39,7 @@ struct FormulaPart {
   Operation operation = Operation::number;
   double number = 0;
   std::optional<std::uint64_t> whole;  // the same, exact, of a whole number >= 0
+  std::string unit;                    // that is written behind the number, as in 1.5 keV
   std::size_t name = 0;                // of a field among the formula's, of a function among all
   std::vector<std::size_t> operands;   // earlier parts
   std::size_t begin = 0, end = 0;      // in the text
@@ -62,6 +63,8 @@ class Formula {
   const std::vector<std::string>& fields() const { return fields_; }
   bool is_condition() const { return is_truth(whole().operation); }
   std::string text_of(const FormulaPart& part) const;
+  // With another number in place of one that has a unit.
+  void replace_number(std::size_t part, double number);
 
  private:
   Formula() = default;

@@ -30,7 +30,8 @@ class FormulaParser {
       : text_(text), what_(what), words_(words_of_formula(text, what)) {}
 
   ParsedFormula parse() {
-    choice();
+    const std::size_t whole = choice();
+    if (has_unit(whole)) refuse_unit(whole);
     if (word().kind != Word::Kind::end) refuse("an operator such as + or &&");
     return std::move(parsed_);
   }
@@ -156,6 +157,7 @@ class FormulaParser {
     if (take("+")) return deeper([this] { return signed_power(); });
     if (!take("-")) return power();
     const std::size_t operand = deeper([this] { return signed_power(); });
+    if (has_unit(operand)) return negated(operand, begin);
     return add(Operation::negate, {operand}, begin);
   }
 
@@ -198,7 +200,41 @@ class FormulaParser {
     if (!value || !std::isfinite(*value)) refuse("a number such as 1.5e6");
     const std::size_t part = constant(*value);
     parsed_.parts[part].whole = whole_of(text, *value);
+    if (word().kind == Word::Kind::name && !words_[next_ + 1].is_sign("(")) read_unit(part);
     return part;
+  }
+
+  // 1e-26 g/cm^3: all as far as no sign of a unit's.
+  void read_unit(std::size_t part) {
+    const std::size_t begin = word().begin;
+    const auto goes_on = [this] {
+      const bool is_exponent = words_[next_ - 1].is_sign("^") && word().is_sign("-");
+      return is_exponent || word().is_sign("*") || word().is_sign("/") || word().is_sign("^") ||
+             word().kind == Word::Kind::name || word().kind == Word::Kind::number;
+    };
+    while (goes_on())
+      ++next_;
+    FormulaPart& number = parsed_.parts[part];
+    number.end = words_[next_ - 1].end;
+    number.unit = text_.substr(begin, number.end - begin);
+  }
+
+  bool has_unit(std::size_t part) const { return !parsed_.parts[part].unit.empty(); }
+
+  std::size_t negated(std::size_t part, std::size_t begin) {
+    FormulaPart& number = parsed_.parts[part];
+    number.number = -number.number;
+    number.whole.reset();
+    number.begin = begin;
+    return part;
+  }
+
+  [[noreturn]] void refuse_unit(std::size_t part) const {
+    throw UsageError(
+        fmt::format("{}: found {} in \"{}\", expected a number with a unit only as one side of a "
+                    "comparison, such as temperature > 1e6 K; a sum or a product takes numbers "
+                    "alone, in the fields' own units",
+                    what_, quoted(part), text_));
   }
 
   // Exact where it is written as a whole number; else as far as double precision has them all.
@@ -270,6 +306,9 @@ class FormulaParser {
   std::size_t add(Operation operation, std::vector<std::size_t> operands, std::size_t begin) {
     if (parsed_.parts.size() == most_parts) {
       refuse_size(fmt::format("more than {} numbers, fields and operators", most_parts));
+    }
+    for (const std::size_t operand : operands) {
+      if (has_unit(operand) && !is_comparison(operation)) refuse_unit(operand);
     }
     FormulaPart part;
     part.operation = operation;

@@ -64,10 +64,11 @@ class UnitFinder {
   UnitFinder(const Formula& formula, const UnitOfField& unit_of, const std::string& what)
       : formula_(formula), unit_of_(unit_of), what_(what) {}
 
-  PartUnit find() {
+  PartUnit find() { return find_all().back(); }
+  const std::vector<PartUnit>& find_all() {
     for (const FormulaPart& part : formula_.parts())
       units_.push_back(unit_of_part(part));
-    return units_.back();
+    return units_;
   }
 
  private:
@@ -199,6 +200,62 @@ std::optional<WrittenUnit> unit_of_formula(const Formula& formula, const UnitOfF
   const PartUnit found = UnitFinder(formula, unit_of, what).find();
   if (found.kind != PartUnit::Kind::known) return std::nullopt;
   return found.unit;
+}
+
+namespace {
+
+// What a temperature in kelvin has to be multiplied by to be an energy in erg.
+constexpr double erg_per_kelvin = 1.380649e-16;
+const Unit kelvin = {1, {0, 0, 0, 1}};
+const Unit erg = {1, {2, 1, -2, 0}};
+
+// What numbers in one unit have to be multiplied by to be in another.
+std::optional<double> ratio_in_comparison(const Unit& from, const Unit& to) {
+  if (same_dimension(from, to)) return from.in_cgs / to.in_cgs;
+  const double ratio = from.in_cgs / to.in_cgs;
+  if (same_dimension(from, erg) && same_dimension(to, kelvin)) return ratio / erg_per_kelvin;
+  if (same_dimension(from, kelvin) && same_dimension(to, erg)) return ratio * erg_per_kelvin;
+  return std::nullopt;
+}
+
+double converted(const Formula& formula, const FormulaPart& number, const FormulaPart& other,
+                 const PartUnit& wanted, const UnitFactors& factors, const std::string& what) {
+  const std::string found =
+      fmt::format("{}: found {} beside {} in \"{}\"", what, formula.text_of(number),
+                  formula.text_of(other), formula.text());
+  if (wanted.kind != PartUnit::Kind::known) {
+    throw UsageError(found +
+                     ", whose unit is not known, expected a number alone; or name the units of "
+                     "its fields as read.units");
+  }
+  const Unit unit = parse_unit(number.unit, factors, what);
+  const std::optional<double> ratio = ratio_in_comparison(unit, wanted.unit.unit);
+  if (ratio) return number.number * *ratio;
+  throw UsageError(fmt::format("{}, which is in {}, expected a unit of the same kind", found,
+                               wanted.unit.text()));
+}
+
+bool has_unit(const FormulaPart& part) {
+  return !part.unit.empty();
+}
+
+}  // namespace
+
+Formula with_converted_numbers(Formula formula, const UnitOfField& unit_of,
+                               const UnitFactors& factors, const std::string& what) {
+  const std::vector<FormulaPart> parts = formula.parts();
+  if (std::none_of(parts.begin(), parts.end(), has_unit)) return formula;
+  const std::vector<PartUnit> units = UnitFinder(formula, unit_of, what).find_all();
+  for (const FormulaPart& part : parts) {
+    if (!is_comparison(part.operation)) continue;
+    for (const std::size_t side : {0, 1}) {
+      const std::size_t number = part.operands[side], other = part.operands[1 - side];
+      if (!has_unit(parts[number])) continue;
+      formula.replace_number(
+          number, converted(formula, parts[number], parts[other], units[other], factors, what));
+    }
+  }
+  return formula;
 }
 
 std::optional<WrittenUnit> written_unit(const std::string& text, UnitFactors factors) {

@@ -27,6 +27,12 @@ using UnitOfField = std::function<std::optional<WrittenUnit>(const std::string& 
 std::optional<WrittenUnit> unit_of_formula(const Formula& formula, const UnitOfField& unit_of,
                                            const std::string& what);
 
+// The formula with numbers that have a unit in that of what they are compared with; temperatures
+// may be compared with energies, as k_B T. Throws UsageError, which `what` begins, for units that
+// do not fit, and where the other side's is not known.
+Formula with_converted_numbers(Formula formula, const UnitOfField& unit_of,
+                               const UnitFactors& factors, const std::string& what);
+
 // A field's, from how a file writes it; nothing where that is no unit that is known.
 std::optional<WrittenUnit> written_unit(const std::string& text, UnitFactors factors);
 

@@ -33,6 +33,18 @@ void check_ids_compared(const TypeFields& fields, const Formula& formula, const 
   }
 }
 
+UnitOfField units_of(const TypeFields& fields) {
+  return [&fields](const std::string& name) {
+    return written_unit(unit_of(fields.info(), name), unit_factors(fields.snapshot_info()));
+  };
+}
+
+// Its numbers in the units of the fields.
+Formula in_units_of(const TypeFields& fields, const Formula& formula, const std::string& key) {
+  return with_converted_numbers(formula, units_of(fields), unit_factors(fields.snapshot_info()),
+                                fields.what(key));
+}
+
 }  // namespace
 
 Formula condition_on(const TypeFields& fields, const std::string& text, const std::string& key) {
@@ -52,11 +64,7 @@ void check_formula(const TypeFields& fields, const Formula& formula, const std::
     if (!is_id && !fields.has_plain(name)) fields.refuse_field(name, key);
   }
   check_ids_compared(fields, formula, key);
-  const UnitFactors factors = unit_factors(fields.snapshot_info());
-  unit_of_formula(
-      formula,
-      [&](const std::string& name) { return written_unit(unit_of(fields.info(), name), factors); },
-      fields.what(key));
+  unit_of_formula(in_units_of(fields, formula, key), units_of(fields), fields.what(key));
 }
 
 std::shared_ptr<const FormulaValues> formula_values(const TypeFields& fields,
@@ -65,7 +73,7 @@ std::shared_ptr<const FormulaValues> formula_values(const TypeFields& fields,
   FormulaSources sources;
   sources.values = [&](const std::string& field) { return fields.plain_values(field, key); };
   sources.whole_numbers = [&](const std::string& field) { return fields.whole_numbers(field); };
-  return std::make_shared<const FormulaValues>(formula, sources);
+  return std::make_shared<const FormulaValues>(in_units_of(fields, formula, key), sources);
 }
 
 }  // namespace splotchcl

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include "select/selection.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
+#include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -53,7 +55,7 @@ std::optional<std::filesystem::path> catalog_of(const ParticleSet& set, const st
   if (const auto found = find_halo_catalog(file)) return found;
   throw UsageError(fmt::format(
       "component with {}.halo {}: particles of type {} in {} have no field of group ids, and there "
-      "is no fof_subhalo_tab beside it; expected {}.catalog, a catalog of haloes",
+      "is no catalog of haloes beside it; expected {}.catalog",
       key, *set.halo, fields.info().type, file.string(), key));
 }
 
@@ -147,7 +149,7 @@ class Membership {
 
   void keep_halo(const ParticleSet& set, const std::string& key) {
     const int type = fields_.info().type;
-    const auto number = static_cast<std::uint64_t>(*set.halo);
+    const std::uint64_t number = *set.halo;
     const auto catalog = catalog_of(set, key, fields_, snapshot_);
     if (!catalog) {
       const Ids haloes = snapshot_.read_integers(type, "halo_id");
@@ -155,12 +157,24 @@ class Membership {
       return;
     }
     const HaloMembers members = read_halo(*catalog, number, type);
-    if (members.ids) {
-      keep_listed(*members.ids);
-      return;
-    }
+    if (members.ids) return keep_listed(*members.ids);
+    if (members.sphere) return keep_halo_sphere(*members.sphere, *catalog);
     check_places(members, *catalog);
     keep_if([&](std::size_t i) { return members.has_place(snapshot_.place_in_file(type, i)); });
+  }
+
+  void keep_halo_sphere(const HaloSphere& sphere, const std::filesystem::path& catalog) {
+    using namespace boost::qvm;
+    const std::string unit = find_field(fields_.info(), "position")->unit;
+    const auto ratio = ratio_of_known_units(sphere.unit, unit, unit_factors(snapshot_.info()));
+    if (!ratio) {
+      throw UsageError(fmt::format(
+          "{}: the halo is a sphere in {}, but the positions of {} are in {}, expected a unit of "
+          "length that is known; name it as read.units = {{position = \"kpc/h a\"}}",
+          catalog.string(), sphere.unit, snapshot_.info().files.front().string(),
+          unit.empty() ? "a unit that it does not say" : unit));
+    }
+    keep_sphere(*ratio * sphere.center, *ratio * sphere.radius);
   }
 
   // A snapshot of which only a part is read does not say how many there are.
@@ -229,9 +243,9 @@ std::string text_of(const std::optional<Vec3>& v) {
 
 std::string text_of(const ParticleSet& set) {
   return fmt::format("where {} ids {} halo {} of {} box {} {} sphere {} {} rim {}",
-                     fmt::join(set.where, "; "), set.id_file, set.halo.value_or(-1),
-                     set.halo_catalog, text_of(set.box_minimum), text_of(set.box_maximum),
-                     text_of(set.sphere_center),
+                     fmt::join(set.where, "; "), set.id_file,
+                     set.halo ? fmt::format("{}", *set.halo) : "-", set.halo_catalog,
+                     text_of(set.box_minimum), text_of(set.box_maximum), text_of(set.sphere_center),
                      set.sphere_radius ? fmt::format("{}", *set.sphere_radius) : "-",
                      set.sphere_rim ? fmt::format("{}", *set.sphere_rim) : "-");
 }

@@ -181,7 +181,7 @@ double choose_width(const Scene& scene, const MapMatter& matter, const PeriodicR
   const double width = std::max(extent_along(matter, geometry.right).span(),
                                 extent_along(matter, geometry.up).span() * aspect);
   if (width > 0) return width;
-  throw UsageError("key map.width: all particles lie in one place, expected the key to be set");
+  throw UsageError("key map.width: all particles lie in one place, expected a width");
 }
 
 // Nothing can be found by particles that a selection leaves out.

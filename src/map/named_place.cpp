@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 
 #include "common/words.h"
@@ -27,13 +26,10 @@ const std::string halo_words = "halo=";
       what, words));
 }
 
-int halo_number(const std::string& words, const std::string& what) {
-  const char* const begin = words.data() + halo_words.size();
-  const char* const end = words.data() + words.size();
-  int number = -1;
-  const auto [rest, error] = std::from_chars(begin, end, number);
-  if (error != std::errc() || rest != end || number < 0) refuse(words, what);
-  return number;
+std::uint64_t halo_number(const std::string& words, const std::string& what) {
+  const auto number = parse_whole_number(std::string_view(words).substr(halo_words.size()));
+  if (!number) refuse(words, what);
+  return *number;
 }
 
 // One that draws what all of the scene's components of its own snapshot draw.

@@ -9,6 +9,7 @@
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
 #include "open_scene/short_keys.h"
+#include "open_scene/shown_snapshot.h"
 #include "ranks/exchange.h"
 #include "scene_file/suggested.h"
 #include "sequence/list_sequence.h"
@@ -60,7 +61,7 @@ std::string names_of(const std::vector<int>& types, const std::string& between =
 }
 
 // A component still has the name of the types that it was suggested for, which would only confuse.
-void check_wanted_types(const std::vector<int>& types, std::size_t component,
+void check_wanted_types(const std::vector<int>& types, const std::string& key,
                         const Snapshot& snapshot) {
   std::vector<int> present;
   for (const ParticleTypeInfo& type : snapshot.info().types)
@@ -69,9 +70,19 @@ void check_wanted_types(const std::vector<int>& types, std::size_t component,
     return snapshot.info().find_type(type) != nullptr;
   });
   if (has_some) return;
-  throw UsageError("key component." + std::to_string(component) + ".types: found " +
-                   names_of(types) + ", of which " + snapshot.info().files.front().string() +
-                   " has no particles, expected some of " + names_of(present));
+  throw UsageError("key " + key + ": found " + names_of(types) + ", of which " +
+                   snapshot.info().files.front().string() + " has no particles, expected some of " +
+                   names_of(present));
+}
+
+// As the settings have it: by the component's name or its number.
+std::string key_of_types(std::size_t component, const std::string& name,
+                         const std::vector<std::string>& settings) {
+  const std::string by_name = "component." + name + ".types";
+  const bool is_by_name =
+      std::any_of(settings.begin(), settings.end(),
+                  [&by_name](const std::string& setting) { return key_of(setting) == by_name; });
+  return is_by_name ? by_name : "component." + std::to_string(component) + ".types";
 }
 
 // What was suggested for other types than a setting wants does not fit them: it is suggested anew,
@@ -90,8 +101,8 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
   for (std::size_t i = 0; i < wanted.components.size(); ++i) {
     const std::vector<int>& types = wanted.components[i].types;
     if (types == suggested.components[i].types) continue;
-    check_wanted_types(types, i, snapshot);
     const std::string name = suggested.components[i].name;
+    check_wanted_types(types, key_of_types(i, name, own), snapshot);
     suggested.components[i] = suggest_component(snapshot, types, look);
     suggested.components[i].name = name;
   }
@@ -238,6 +249,26 @@ bool is_sequence(const std::filesystem::path& path) {
   return is_snapshot_pattern(path.string()) && !std::filesystem::exists(path, error);
 }
 
+// The scene that is chosen from a snapshot's data.
+SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
+                              const std::vector<std::string>& settings, const ShortKeys& keys,
+                              Look otherwise) {
+  SceneWithSnapshot result;
+  result.snapshot = snapshot;
+  const Look look = look_in(settings, otherwise);
+  Scene suggested = suggest_scene(*snapshot, look);
+  choose_types(keys, *snapshot, look, suggested);
+  result.suggested = with_wanted_types(suggested, settings, *snapshot, look);
+  result.scene =
+      scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
+  result.scene.look.reset();
+  apply_colors(keys, settings, result);
+  name_by_types(*result.suggested, result.scene);
+  const std::string not_drawn = tell_not_drawn(result.scene, *snapshot);
+  if (!not_drawn.empty() && keys.types.empty()) result.notes.push_back(not_drawn);
+  return result;
+}
+
 SceneWithSnapshot open_together(const std::filesystem::path& path,
                                 const std::vector<std::string>& settings, const ShortKeys& keys,
                                 const std::shared_ptr<Communicator>& ranks, Look otherwise) {
@@ -255,17 +286,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
   } else {
     result.snapshot = open_given_snapshot(path, read_settings_in(settings));
     share_passes(*result.snapshot, ranks);
-    const Look look = look_in(settings, otherwise);
-    Scene suggested = suggest_scene(*result.snapshot, look);
-    choose_types(keys, *result.snapshot, look, suggested);
-    result.suggested = with_wanted_types(suggested, settings, *result.snapshot, look);
-    result.scene =
-        scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
-    result.scene.look.reset();
-    apply_colors(keys, settings, result);
-    name_by_types(*result.suggested, result.scene);
-    const std::string not_drawn = tell_not_drawn(result.scene, *result.snapshot);
-    if (!not_drawn.empty() && keys.types.empty()) result.notes.push_back(not_drawn);
+    result = suggest_for(result.snapshot, settings, keys, otherwise);
   }
   share_passes(*result.snapshot, ranks);
   apply(keys, result);
@@ -276,6 +297,26 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
 
 bool is_par_file(const std::filesystem::path& path) {
   return lower_ending(path) == ".par";
+}
+
+SceneWithSnapshot show_snapshot(const std::shared_ptr<const Snapshot>& snapshot,
+                                const std::vector<std::string>& settings, Look look) {
+  std::vector<std::string> of_keys = settings;
+  const ShortKeys short_keys = take_short_keys(of_keys);
+  SceneWithSnapshot result = suggest_for(snapshot, of_keys, short_keys, look);
+  apply(short_keys, result);
+  return result;
+}
+
+SceneWithSnapshot show_scene(SceneWithSnapshot opened, const std::vector<std::string>& settings) {
+  std::vector<std::string> of_keys = settings;
+  const ShortKeys short_keys = take_short_keys(of_keys);
+  const Scene* const suggested = opened.suggested ? &*opened.suggested : nullptr;
+  opened.scene = scene_file::apply_settings_to_suggested(opened.scene, suggested, of_keys);
+  keep_types(short_keys, opened.scene);
+  apply_colors(short_keys, of_keys, opened);
+  apply(short_keys, opened);
+  return opened;
 }
 
 SceneWithSnapshot open_scene(const std::filesystem::path& path,

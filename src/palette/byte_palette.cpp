@@ -34,7 +34,7 @@ float light_of(char byte) {
 [[noreturn]] void refuse_bytes(const std::string& name, std::size_t size) {
   throw DataError(fmt::format(
       "{}: found {} bytes that are no text, expected lines of 3 or 6 numbers, or 256 colors as 768 "
-      "bytes named .act or .lut; write it as text, an array of NumPy with numpy.savetxt",
+      "bytes named .act or .lut; write it as text, or as an array of NumPy",
       name, size));
 }
 

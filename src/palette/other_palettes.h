@@ -15,6 +15,9 @@ namespace splotchcl {
 // blue (ImageJ's .lut), which the ending of the name tells apart.
 std::optional<Palette> read_byte_palette(const std::string& bytes, const std::string& name);
 
+// An array of NumPy (.npy): a row for each color.
+std::optional<Palette> read_numpy_palette(const std::string& bytes, const std::string& name);
+
 // ParaView's color maps, in JSON or XML: the first of a file.
 std::optional<Palette> read_paraview_palette(const std::string& text, const std::string& name);
 

@@ -61,6 +61,7 @@ bool is_palette_path(const std::string& name) {
 
 Palette parse_palette(const std::string& text, const std::string& name_for_messages) {
   const std::string& name = name_for_messages;
+  if (auto palette = read_numpy_palette(text, name)) return std::move(*palette);
   if (auto palette = read_byte_palette(text, name)) return std::move(*palette);
   if (auto palette = read_paraview_palette(text, name)) return std::move(*palette);
   if (auto palette = read_sao_palette(text, name)) return std::move(*palette);

@@ -47,8 +47,8 @@ std::optional<fs::path> own_folder() {
   return fs::path(value);
 }
 
-constexpr std::array<const char*, 11> endings = {".txt", ".pal", ".gpl", ".cpt",  ".act", ".lut",
-                                                 ".rgb", ".csv", ".sao", ".json", ".xml"};
+constexpr std::array<const char*, 12> endings = {".txt", ".pal", ".gpl", ".cpt",  ".act", ".lut",
+                                                 ".rgb", ".csv", ".sao", ".json", ".xml", ".npy"};
 
 bool is_palette_file(const fs::path& path) {
   std::error_code ignored;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/words.h"
+#include "palette/lab_colors.h"
 #include "palette/other_palettes.h"
 #include "palette/placed_colors.h"
 #include "splotchcl/error.h"
@@ -19,11 +20,13 @@ constexpr std::size_t enough_colors = 16;
 Palette make_palette(std::vector<PlacedColor> colors, const std::string& space,
                      const std::string& name) {
   const std::string lower = lower_case(space);
-  if (colors.size() < enough_colors && !lower.empty() && lower != "rgb") {
-    throw DataError(fmt::format(
-        "{}: found {} colors to be joined in the space {}, expected RGB, or {} colors at least; "
-        "export it from ParaView in RGB",
-        name, colors.size(), shown(space), enough_colors));
+  const bool is_lab = lower == "lab" || lower == "cielab";
+  if (colors.size() < enough_colors && !lower.empty() && lower != "rgb" && !is_lab) {
+    throw DataError(
+        fmt::format("{}: found {} colors to be joined in the space {}, expected RGB or Lab, or {} "
+                    "colors at least; "
+                    "export it from ParaView in RGB",
+                    name, colors.size(), shown(space), enough_colors));
   }
   for (const PlacedColor& color : colors) {
     const bool is_color = std::all_of(color.color.begin(), color.color.end(),
@@ -41,7 +44,7 @@ Palette make_palette(std::vector<PlacedColor> colors, const std::string& space,
   }
   Palette palette;
   palette.name = name;
-  palette.emission = even_knots(colors);
+  palette.emission = even_knots(is_lab ? joined_in_lab(colors) : colors);
   return palette;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/words.h"
 #include "palette/placed_colors.h"
 #include "splotchcl/error.h"
 
@@ -60,6 +61,19 @@ std::vector<Rgb> colors_of_letters(const std::vector<PaletteLine>& lines) {
                              shown(knot.words[word])));
 }
 
+// A table of particles has numbers in rows, too.
+void refuse_columns_of_particles(const Knot& names, const std::string& name) {
+  for (const std::string_view word : names.words) {
+    const std::string lower = lower_case(std::string(word));
+    const bool is_of_particles = lower == "y" || lower == "z" || lower == "mass";
+    if (!is_of_particles) continue;
+    refuse_palette(name, names.line.number,
+                   fmt::format("found a column \"{}\", as of particles, expected red, green and "
+                               "blue",
+                               shown(word)));
+  }
+}
+
 // The lines behind comments and at most one line of words. `most` numbers of each: names may
 // follow.
 std::vector<Knot> knots_in(const std::vector<PaletteLine>& lines, std::size_t most,
@@ -84,6 +98,7 @@ std::vector<Knot> knots_in(const std::vector<PaletteLine>& lines, std::size_t mo
     knots.push_back(std::move(knot));
   }
   if (knots.empty() && names) refuse_number(*names, 0, name);
+  if (names) refuse_columns_of_particles(*names, name);
   return knots;
 }
 

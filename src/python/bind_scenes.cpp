@@ -5,6 +5,8 @@
 
 #include "film/follow/find_followed.h"
 #include "film/path/film_path.h"
+#include "formula/formula.h"
+#include "open_scene/shown_snapshot.h"
 #include "python/bindings.h"
 #include "python/progress.h"
 #include "python/source.h"
@@ -49,6 +51,16 @@ auto in_turn(const Source& source, Work&& work) {
     source.refresh();
     return work();
   });
+}
+
+// For as long as the source is there.
+std::shared_ptr<const Snapshot> not_owned(const Snapshot& snapshot) {
+  return {std::shared_ptr<const Snapshot>(), &snapshot};
+}
+
+py::tuple as_tuple(SceneWithSnapshot opened) {
+  return py::make_tuple(std::move(opened.scene), std::move(opened.notes),
+                        std::move(opened.suggested));
 }
 
 py::tuple decide_scene(const Scene& scene, const Source& source, py::object report) {
@@ -105,10 +117,21 @@ void bind_scenes(py::module_& module) {
   module.def("snapshot_of", [](const Scene& scene) {
     return without_python([&] { return std::make_shared<Source>(SnapshotSource().at(scene)); });
   });
-  module.def("suggest", [](const Source& source, const Settings& look) {
-    const Look wanted = apply_settings(Scene(), look).look.value_or(Look::press);
-    return in_turn(source, [&] { return suggest_scene(source.snapshot(), wanted); });
+  module.def("show_snapshot", [](const Source& source, const Settings& settings) {
+    return as_tuple(
+        in_turn(source, [&] { return show_snapshot(not_owned(source.snapshot()), settings); }));
   });
+  module.def("show_scene", [](const Scene& scene, const Scene* suggested, const Source& source,
+                              const Settings& settings) {
+    return as_tuple(in_turn(source, [&] {
+      SceneWithSnapshot opened;
+      opened.scene = scene;
+      opened.snapshot = not_owned(source.snapshot());
+      if (suggested != nullptr) opened.suggested = *suggested;
+      return show_scene(std::move(opened), settings);
+    }));
+  });
+  module.def("may_be_formula", &Formula::may_be);
   module.def("tell_not_drawn", [](const Scene& scene, const Source& source) {
     return in_turn(source, [&] { return tell_not_drawn(scene, source.snapshot()); });
   });

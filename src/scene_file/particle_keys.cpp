@@ -9,8 +9,6 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-constexpr int most_haloes = 2147483647;
-
 // A condition, or an array of them.
 std::optional<Texts> read_conditions(const toml::node& node) {
   Texts conditions;
@@ -72,10 +70,10 @@ Keys set_keys(const std::string& path, ParticleSet Component::*set) {
                    "Only particles whose ids this file lists: text, one per line, or a NumPy array "
                    "(.npy)."),
            "", "not used"}),
-      key<Component, int>(
-          path + ".halo", integer(0, most_haloes),
+      key<Component, std::uint64_t>(
+          path + ".halo", identifier(),
           [=](const Component& component) { return (component.*set).halo; },
-          [=](Component& component, int value) { (component.*set).halo = value; },
+          [=](Component& component, std::uint64_t value) { (component.*set).halo = value; },
           {meaning(".halo",
                    "Only particles of this halo, by its number in the snapshot or in the catalog; "
                    "see formats.md."),

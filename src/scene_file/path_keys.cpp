@@ -264,11 +264,10 @@ Key follow_key(const std::string& name, const ValueType<V>& type,
 
 Keys followed_keys() {
   using Place = std::optional<Vec3>;
-  constexpr int most_haloes = 2147483647;
   return {
-      excluding(follow_key<int>(
-                    "halo", integer(0, most_haloes), [](const Follow& f) { return f.halo; },
-                    [](Follow& f, int value) {
+      excluding(follow_key<std::uint64_t>(
+                    "halo", identifier(), [](const Follow& f) { return f.halo; },
+                    [](Follow& f, std::uint64_t value) {
                       f.halo = value;
                       f.sphere_center.reset();
                       f.sphere_radius.reset();

@@ -38,6 +38,13 @@ ValueType<std::vector<std::string>> column_names() {
   return {"an array of strings, or a table of strings by name", read, list.write};
 }
 
+// The unit of each field, also in a list of "field=unit".
+ValueType<std::vector<std::string>> field_units() {
+  ValueType<std::vector<std::string>> units = column_names();
+  units.expected = "a table of units by field, such as {mass = \"Msun\"}";
+  return units;
+}
+
 }  // namespace
 
 Keys read_keys() {
@@ -54,6 +61,14 @@ Keys read_keys() {
            "Or names for columns, arrays and HDF5's datasets that are called otherwise. See "
            "formats.md.",
            "", "those in the file"}),
+      key<ReadSettings, std::vector<std::string>>(
+          "read.units", field_units(),
+          [](const ReadSettings& read) {
+            return read.units.empty() ? std::nullopt : std::optional(read.units);
+          },
+          [](ReadSettings& read, const std::vector<std::string>& value) { read.units = value; },
+          {"Units of fields that the file does not say, or says wrongly; numbers stay.", "",
+           "those in the file"}),
       key<ReadSettings, int>(
           "read.skip_lines", integer(0, most),
           [](const ReadSettings& read) {

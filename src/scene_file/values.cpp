@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "common/utf8.h"
+#include "common/words.h"
 #include "snapshot/field_names.h"
 
 namespace splotchcl::scene_file {
@@ -175,6 +176,20 @@ ValueType<int> integer(int at_least, int at_most) {
   return {fmt::format("an integer from {} to {}", at_least, at_most),
           [=](const toml::node& node) { return read_integer(node, at_least, at_most); },
           [](const int& value) { return std::to_string(value); }};
+}
+
+ValueType<std::uint64_t> identifier() {
+  const auto read = [](const toml::node& node) -> std::optional<std::uint64_t> {
+    if (const auto number = node.value_exact<std::int64_t>())
+      return *number < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(*number));
+    const auto text = node.value_exact<std::string>();
+    return text ? parse_whole_number(*text) : std::nullopt;
+  };
+  const auto write = [](const std::uint64_t& number) {
+    const std::string digits = std::to_string(number);
+    return number > INT64_MAX ? '"' + digits + '"' : digits;
+  };
+  return {"a whole number from 0 to 2^64 - 1, beyond 2^63 - 1 as a string", read, write};
 }
 
 ValueType<int> bits(std::vector<int> numbers) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,6 +34,7 @@ struct Range {
 
 ValueType<double> number(const Range& range = {});
 ValueType<int> integer(int at_least, int at_most);
+ValueType<std::uint64_t> identifier();          // a whole number, exact, beyond 2^63 as a string
 ValueType<int> bits(std::vector<int> numbers);  // one of these
 ValueType<bool> boolean();
 ValueType<std::string> text();                                                 // not empty

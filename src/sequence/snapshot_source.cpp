@@ -36,11 +36,11 @@ Member open_member(const ListedSnapshot& listed, const SnapshotOptions& options)
 }
 
 SnapshotOptions options_of(const Scene& scene) {
-  return {scene.read.columns, scene.read.skip_lines};
+  return {scene.read.columns, scene.read.skip_lines, scene.read.units};
 }
 
 bool are_same(const SnapshotOptions& a, const SnapshotOptions& b) {
-  return a.columns == b.columns && a.skip_lines == b.skip_lines;
+  return a.columns == b.columns && a.skip_lines == b.skip_lines && a.units == b.units;
 }
 
 // A snapshot that was read before it was needed, and its match with a neighbour.

@@ -209,6 +209,14 @@ TEST(ColorBar, LiesAtTheTopAndBottom) {
   EXPECT_LT(bar.height, 20);
 }
 
+// Such as that of a formula in a small picture: it ends in dots.
+TEST(ColorBar, HasRoomForLongLabels) {
+  FinishScene scene;
+  scene.add_component("gas", red_to_blue(), zero_to_one);
+  scene.scene.finish.color_bar = {true, Anchor::right, 0.6, {}, {std::string(300, 'm') + " [kpc]"}};
+  EXPECT_EQ(bounds(scene.finish(), is_of_palette).height, 180);
+}
+
 TEST(ColorBar, OfEveryColoredComponentShareTheLength) {
   FinishScene scene;
   scene.add_component("gas", red_to_blue(), zero_to_one);

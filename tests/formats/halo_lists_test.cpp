@@ -51,10 +51,12 @@ TEST_F(HaloLists, OfAhfWithoutIdentifiersCountFromZero) {
   EXPECT_THAT(ids_of(halos, 6), Optional(ElementsAre(21, 22)));
 }
 
-TEST_F(HaloLists, OfAhfWithIdentifiersBeyondAllNumbersCountFromZero) {
+TEST_F(HaloLists, OfAhfHaveLongIdentifiersOrCountFromZero) {
   const auto path =
-      write("s.AHF_particles", "2\n1 33000000000001\n 11 1\n1 33000000000002\n 21 1\n");
+      write("s.AHF_particles", "2\n1 33000000000001\n 11 1\n1 9223372036854775809\n 21 1\n");
   EXPECT_THAT(ids_of(path, 1), Optional(ElementsAre(21)));
+  EXPECT_THAT(ids_of(path, 33000000000001), Optional(ElementsAre(11)));
+  EXPECT_THAT(ids_of(path, 9223372036854775809U), Optional(ElementsAre(21)));
 }
 
 TEST_F(HaloLists, OfAhfThatAreCutOffAreRefused) {
@@ -84,7 +86,52 @@ TEST_F(HaloLists, OfRockstarAreReadFromAllFilesOfACatalog) {
 
 TEST_F(HaloLists, WithoutParticlesAreRefusedWithWhatHasThem) {
   EXPECT_THAT(refusal_of_halo(write("out_33.list", "#ID DescID\n1 -1\n"), 1),
-              AllOf(HasSubstr("AHF_particles"), HasSubstr(".particles of Rockstar")));
+              AllOf(HasSubstr("AHF_particles"), HasSubstr("no halo 1 in a list that Rockstar")));
+}
+
+TEST_F(HaloLists, OfRockstarWithoutParticlesSayWhereHaloesAre) {
+  const auto list = write("out_33.list",
+                          "#ID DescID Mvir Rvir X Y Z\n#Units: Positions in Mpc / h (comoving)\n"
+                          "4 -1 1e12 250 10 20 30\n9223372036854775809 -1 1e12 125 1 2 3\n");
+  const HaloMembers members = read_halo(list, 9223372036854775809U, 1);
+  ASSERT_TRUE(members.sphere);
+  EXPECT_THAT(members.sphere->center.a, ElementsAre(1, 2, 3));
+  EXPECT_NEAR(members.sphere->radius, 0.125, 1e-12);
+  EXPECT_EQ(members.sphere->unit, "Mpc/h a");
+  EXPECT_THAT(refusal_of_halo(list, 5), HasSubstr("no halo 5"));
+}
+
+TEST_F(HaloLists, OfAhfWithoutParticlesSayWhereHaloesAreInKiloparsecs) {
+  const auto list = write(
+      "s.AHF_halos", "#ID(1) hostHalo(2) Xc(6) Yc(7) Zc(8) Rhalo(12)\n7 0 1000 2000 3000 500\n");
+  const HaloMembers members = read_halo(list, 7, 1);
+  ASSERT_TRUE(members.sphere);
+  EXPECT_THAT(members.sphere->center.a, ElementsAre(1, 2, 3));
+  EXPECT_NEAR(members.sphere->radius, 0.5, 1e-12);
+}
+
+TEST_F(HaloLists, OfRockstarThatAreCutOffAreRefused) {
+  EXPECT_THAT(refusal_of_halo(write("out_1.list", "#ID Rvir X Y Z\n4 250 10\n"), 4),
+              HasSubstr("line 2"));
+}
+
+TEST_F(HaloLists, OfSubfindCountSubhaloesToo) {
+  const auto path = folder_ / "fof_subhalo_tab_1.hdf5";
+  {
+    const Hdf5Output file = create_hdf5(path);
+    make_group(file, "Header");
+    write_values(file, "Group/GroupLenType", {0, 10, 0, 7}, 2, H5T_STD_I32LE);
+    write_values(file, "Subhalo/SubhaloLenType", {0, 4, 0, 3, 0, 5}, 2, H5T_STD_I32LE);
+    write_values(file, "Subhalo/SubhaloGroupNr", {0, 0, 1}, 1, H5T_STD_I32LE);
+  }
+  const HaloMembers second = read_halo(path / "Subhalo", 1, 1),
+                    third = read_halo(path / "Subhalo", 2, 1);
+  EXPECT_FALSE(second.has_place(3) || second.has_place(7));
+  EXPECT_TRUE(second.has_place(4) && second.has_place(6));
+  EXPECT_TRUE(third.has_place(10) && third.has_place(14));
+  EXPECT_FALSE(third.has_place(9) || third.has_place(15));
+  EXPECT_THAT(refusal_of_halo(path / "Subhalo", 3), HasSubstr("from 0 to 2"));
+  EXPECT_THAT(refusal_of_halo(path / "Group", 0), HasSubstr("Subhalo for the subhaloes"));
 }
 
 TEST_F(HaloLists, OfSoapAreTheMembersBesideTheProperties) {
@@ -104,9 +151,11 @@ TEST_F(HaloLists, OfSoapAreTheMembersBesideTheProperties) {
 }
 
 TEST_F(HaloLists, AreFoundByTheNumberOfTheSnapshot) {
-  for (const char* const name : {"groups_033/fof_subhalo_tab_033.0.hdf5", "fof_tab_033.hdf5",
-                                 "groups_033.hdf5", "membership_033/membership_033.0.hdf5",
-                                 "SOAP/membership_033.hdf5", "snapshot_033.z0.000.AHF_particles"}) {
+  for (const char* const name :
+       {"groups_033/fof_subhalo_tab_033.0.hdf5", "fof_tab_033.hdf5", "groups_033.hdf5",
+        "membership_033/membership_033.0.hdf5", "SOAP/membership_033.hdf5",
+        "snapshot_033.z0.000.AHF_particles", "snapshot_033.z0.000.AHF_halos", "out_33.list",
+        "rockstar/halos_33.0.particles"}) {
     const auto catalog = write(name, "");
     EXPECT_THAT(find_halo_catalog(folder_ / "snapshot_033.0.hdf5"), Optional(catalog));
     EXPECT_FALSE(find_halo_catalog(folder_ / "snapshot_034.hdf5")) << name;

@@ -264,5 +264,53 @@ TEST(FormulaUnits, ThatAreNotKnownFitAll) {
   EXPECT_EQ(unit("log10(T) + r"), "none");
 }
 
+// The number that a comparison has, in the unit of the field.
+double number_in(const std::string& text) {
+  const Formula formula =
+      with_converted_numbers(Formula::parse(text, "here"), unit_of_field, {0.5, 0.7}, "here");
+  for (const FormulaPart& part : formula.parts()) {
+    if (part.operation == Operation::number) return part.number;
+  }
+  return 0;
+}
+
+std::string refusal_of_units(const std::string& text) {
+  try {
+    number_in(text);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(NumbersWithUnits, AreConvertedToWhatTheyAreComparedWith) {
+  EXPECT_NEAR(number_in("r < 2 Mpc"), 2000, 1e-9);
+  EXPECT_NEAR(number_in("2 Mpc > r"), 2000, 1e-9);
+  EXPECT_NEAR(number_in("v > -3e7 cm/s"), -300, 1e-9);
+  EXPECT_NEAR(number_in("rho >= 1 kg m^-3"), 1e-3, 1e-12);
+  EXPECT_NEAR(number_in("r < 2 Mpc/h a && T > T"), 2000 / 0.7 * 0.5, 1e-6);
+  EXPECT_NEAR(number_in("sqrt(r * r) == 1 Mpc"), 1000, 1e-9);
+  EXPECT_EQ(number_in("r < 2"), 2);
+}
+
+TEST(NumbersWithUnits, OfEnergiesStandBesideTemperatures) {
+  EXPECT_NEAR(number_in("T > 1 keV"), 1.602176634e-9 / 1.380649e-16, 1);
+}
+
+TEST(NumbersWithUnits, ThatDoNotFitAreRefused) {
+  EXPECT_THAT(refusal_of_units("T > 1 kpc"),
+              HasSubstr("found 1 kpc beside T in \"T > 1 kpc\", which is in K"));
+  EXPECT_THAT(refusal_of_units("n > 1 kpc"), HasSubstr("whose unit is not known"));
+  EXPECT_THAT(refusal_of_units("r > 1 furlong"), HasSubstr("furlong"));
+  EXPECT_THAT(refusal_of_units("1 kpc < 2 kpc"), HasSubstr("found 1 kpc beside 2 kpc"));
+}
+
+TEST(NumbersWithUnits, AreRefusedElsewhere) {
+  for (const char* const text : {"r * 2 Mpc", "r + 2 Mpc > 3", "3 kpc", "-(2 Mpc)", "sqrt(2 Mpc)",
+                                 "r < 2 * 1 Mpc", "T > 1 ? 1 kpc : r"}) {
+    EXPECT_THAT(refusal_of_units(text), HasSubstr("only as one side of a comparison")) << text;
+  }
+}
+
 }  // namespace
 }  // namespace splotchcl::test

@@ -40,8 +40,9 @@ FormulaSources sources() {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    const Formula formula =
-        Formula::parse(std::string(reinterpret_cast<const char*>(data), size), "fuzz");
+    const Formula formula = with_converted_numbers(
+        Formula::parse(std::string(reinterpret_cast<const char*>(data), size), "fuzz"),
+        unit_of_field, {0.5, 0.7}, "fuzz");
     const FormulaValues values(formula, sources());
     double out[particles];
     values.evaluate(0, particles, out);

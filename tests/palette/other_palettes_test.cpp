@@ -103,9 +103,54 @@ TEST(OtherPalettes, OfAdobeMaySayHowManyColorsTheyHave) {
 
 TEST(OtherPalettes, OfBytesThatAreNoneAreRefusedWithoutThem) {
   const std::string message =
-      refusal_of_palette(std::string("\x93NUMPY\x01\0v\0\xff\xfe", 12), "map.npy");
+      refusal_of_palette(std::string("\x93MUMPY\x01\0v\0\xff\xfe", 12), "map.bin");
   EXPECT_THAT(message, AllOf(HasSubstr("found 12 bytes that are no text"),
-                             HasSubstr("numpy.savetxt"), Not(HasSubstr("NUMPY\x01"))));
+                             HasSubstr("an array of NumPy"), Not(HasSubstr("MUMPY\x01"))));
+}
+
+// Of version 1, its header of 118 bytes.
+std::string numpy_array(const std::string& type, const std::string& shape,
+                        const std::string& values) {
+  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + "}";
+  header.resize(117, ' ');
+  return std::string("\x93NUMPY\x01\0v\0", 10) + header + "\n" + values;
+}
+
+TEST(OtherPalettes, OfNumpyAreArraysOfColors) {
+  const Palette palette = parse_palette(
+      numpy_array("|u1", "(2, 3)", {'\0', '\x33', '\0', '\x66', '\0', '\0'}), "a.npy");
+  ASSERT_EQ(palette.emission.size(), 2U);
+  EXPECT_THAT(palette.emission[0], ElementsAre(0, 0.2F, 0));
+  EXPECT_THAT(palette.emission[1], ElementsAre(0.4F, 0, 0));
+}
+
+TEST(OtherPalettes, OfNumpyMayBeWholeFloats) {
+  const float values[] = {0, 51, 255};
+  const std::string bytes(reinterpret_cast<const char*>(values), sizeof values);
+  const Palette palette = parse_palette(numpy_array("<f4", "(1, 3)", bytes), "a.npy");
+  EXPECT_THAT(palette.emission.front(), ElementsAre(0, 0.2F, 1));
+}
+
+TEST(OtherPalettes, OfNumpyThatAreNoColorsAreRefused) {
+  EXPECT_THAT(refusal_of_palette(numpy_array("|u1", "(3, 2)", "abcdef"), "a.npy"),
+              HasSubstr("an array of the shape 3 x 2"));
+  EXPECT_THAT(refusal_of_palette(numpy_array("|u1", "(1, 4)", "abcd"), "a.npy"),
+              HasSubstr("found 100 in row 0"));
+}
+
+// Gray of half the lightness is 119 of 255.
+TEST(OtherPalettes, OfParaviewAreJoinedInLabWhereTheySaySo) {
+  const Palette palette =
+      parse_palette(R"([{"ColorSpace":"Lab","RGBPoints":[0,0,0,0,1,1,1,1]}])", "a.json");
+  const Rgb middle = palette.emission[palette.emission.size() / 2];
+  EXPECT_NEAR(middle[0], 118.9 / 255, 2e-3);
+  EXPECT_NEAR(middle[1], middle[0], 1e-4);
+  EXPECT_NEAR(middle[2], middle[0], 1e-4);
+}
+
+TEST(OtherPalettes, AreNoTablesOfParticles) {
+  EXPECT_THAT(refusal_of_palette("x y z mass\n0 0.1 0.2 1\n1 0.5 0.5 1\n", "a.txt"),
+              HasSubstr("found a column \"y\", as of particles"));
 }
 
 TEST(OtherPalettes, OfFewColorsInOtherSpacesAreRefused) {

@@ -43,6 +43,20 @@ def test_values_come_back_as_they_were(scene, key, value):
     assert scene[key] == value
 
 
+def test_a_formula_that_was_set_is_got(scene):
+    scene["component.0.color.formula"] = "density * temperature"
+    assert scene["component.0.color.formula"] == "density * temperature"
+    assert "component.0.color.formula" in scene
+    scene["component.0.color.field"] = "density"
+    assert scene["component.0.color.formula"] is None
+
+
+def test_completions_are_all_that_is_set_and_more(scene):
+    completions = scene._ipython_key_completions_()
+    assert set(scene) <= set(completions)
+    assert {"component.hot.gas.color.formula", "component.0.color.formula"} <= set(completions)
+
+
 def test_arrays_are_lists_of_numbers(scene):
     scene["image.background"] = np.array([0.5, 0.25, 0], np.float32)
     assert scene["image.background"] == [0.5, 0.25, 0]
@@ -215,3 +229,63 @@ def test_another_field_of_a_suggested_scene_keeps_limits_that_were_set(suggested
 def test_a_suggested_scene_takes_the_field_of_view_of_a_projection_of_wide_angles(suggested):
     suggested["camera.projection"] = "cube"
     assert suggested["camera.field_of_view"] is None
+
+
+@pytest.fixture
+def snapshot(tmp_path):
+    """Particles of two types in a file, of which half have a density above 1."""
+    path = tmp_path / "two.npz"
+    x = np.random.default_rng(5).uniform(0, 10, (200, 3))
+    np.savez(path, pos=x, density=np.repeat([0.5, 2.0], 100), hsml=np.full(200, 1.0))
+    return splotchcl.Snapshot(path)
+
+
+SHOWN = {"types": "gas", "where": ["density > 1", "x < 9"], "field": "log10(density)",
+         "palette": "viridis", "center": (1, 2, 3), "width": 4}
+
+
+def what_is_shown(scene):
+    component = {key: scene[f"component.0.{key}"]
+                 for key in ("types", "select.where", "color.formula", "palette")}
+    return component, scene["camera.look_at"], scene["camera.position"]
+
+
+def test_keywords_show_what_options_show(snapshot):
+    path = snapshot.files[0]
+    component, look_at, _ = what_is_shown(splotchcl.suggest(path, **SHOWN))
+    assert component == {"types": ["gas"], "select.where": ["density > 1", "x < 9"],
+                         "color.formula": "log10(density)", "palette": "viridis"}
+    assert look_at == [1, 2, 3]
+
+
+def test_keywords_show_the_same_of_paths_snapshots_and_scenes(snapshot):
+    expected = what_is_shown(splotchcl.suggest(snapshot.files[0], **SHOWN))
+    assert what_is_shown(splotchcl.suggest(snapshot, **SHOWN)) == expected
+    image = splotchcl.reference(splotchcl.suggest(snapshot), snapshot, size=(4, 4), **SHOWN)
+    assert what_is_shown(image.scene) == expected
+
+
+def test_lengths_with_units_are_converted():
+    astropy_units = pytest.importorskip("astropy.units")
+    x = np.random.default_rng(5).uniform(0, 10, (50, 3)) * astropy_units.kpc
+    particles = splotchcl.Particles().add("gas", position=x, smoothing_length=1 * np.ones(50) * astropy_units.kpc)
+    scene = splotchcl.suggest(particles, center="0.001,0.002,0.003 Mpc", width=4000 * astropy_units.pc)
+    assert scene["camera.look_at"] == pytest.approx([1, 2, 3])
+    assert scene["camera.position"] == pytest.approx(
+        splotchcl.suggest(particles, center=(1, 2, 3), width=4)["camera.position"])
+
+
+@pytest.mark.parametrize(
+    ("shown", "error"),
+    [({"types": "stars"}, "types: found stars"), ({"center": "1,2"}, "center: found \"1,2\""),
+     ({"width": -1}, "width: found"), ({"width": [1]}, r"width: found \[1\], expected a length"),
+     ({"where": 3}, "where: found 3"), ({"field": 3}, "field: found 3")],
+)
+def test_what_cannot_be_shown_is_a_usage_error(snapshot, shown, error):
+    with pytest.raises(UsageError, match=error):
+        splotchcl.suggest(snapshot, **shown)
+
+
+def test_another_keyword_is_a_type_error(snapshot):
+    with pytest.raises(TypeError, match="'centre', expected one of types, where"):
+        splotchcl.render(snapshot, centre="densest")

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import splotchcl
+from splotchcl._shown import Shown
 
 SOURCES = Path(__file__).parents[2] / "src" / "python" / "splotchcl"
 USE = """
@@ -70,5 +71,7 @@ def test_docstrings_name_every_parameter(name):
     function = getattr(splotchcl, name)
     text = inspect.getdoc(function)
     assert "Parameters\n----------" in text
-    for parameter in inspect.signature(function).parameters:
-        assert parameter in text, parameter
+    for parameter in inspect.signature(function).parameters.values():
+        is_group = parameter.name == "shown"
+        for name in Shown.__annotations__ if is_group else [parameter.name]:
+            assert name in text, name

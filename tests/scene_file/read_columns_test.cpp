@@ -31,5 +31,23 @@ TEST(ReadColumns, OfOtherKindsAreRefused) {
   }
 }
 
+TEST(ReadUnits, AreATableOfFieldsAndUnits) {
+  const Scene scene = parse_scene(
+      start + "[read]\nunits = {mass = \"Msun\", position = \"kpc/h a\"}\n", "scene.toml");
+  EXPECT_THAT(scene.read.units, UnorderedElementsAre("mass=Msun", "position=kpc/h a"));
+  EXPECT_EQ(parse_scene(format_scene(scene), "again.toml").read.units, scene.read.units);
+}
+
+TEST(Haloes, HaveNumbersOfAnyLength) {
+  for (const std::uint64_t number :
+       {std::uint64_t{0}, std::uint64_t{9007199254740993U}, std::uint64_t{18446744073709551615U}}) {
+    const Scene scene =
+        parse_scene(start + "select.halo = \"" + std::to_string(number) + "\"\n", "scene.toml");
+    EXPECT_EQ(scene.components.front().select.halo, number);
+    EXPECT_EQ(parse_scene(format_scene(scene), "again.toml").components.front().select.halo,
+              number);
+  }
+}
+
 }  // namespace
 }  // namespace splotchcl

@@ -363,7 +363,8 @@ TEST_F(SelectionByIds, RefusesAnArrayOfOtherNumbers) {
   header.resize(117, ' ');
   std::string bytes = "\x93NUMPY";
   bytes += {1, 0, 118, 0};
-  bytes += header + "\n" + std::string(8, '\0');
+  const double half = 0.5;
+  bytes += header + "\n" + std::string(reinterpret_cast<const char*>(&half), sizeof half);
   EXPECT_THAT(refusal(listing(bytes), gas_row()), HasSubstr("not an array of whole numbers"));
 }
 

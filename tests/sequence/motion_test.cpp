@@ -247,6 +247,7 @@ TEST(Ids, ThatAreNotWholeNumbersAreRefused) {
   const TemporaryFolder folder;
   TestSnapshot snapshot = small_snapshot();
   snapshot.set_kind("ID", ValueKind::float32);
+  snapshot.block("ID").values[0][0] += 0.5;
   write_hdf5(folder / "snap.hdf5", snapshot);
   EXPECT_THROW(open_snapshot(folder / "snap.hdf5")->read_ids(0), DataError);
 }

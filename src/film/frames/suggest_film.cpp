@@ -31,13 +31,9 @@ Follow follow_of(const FilmTarget& target) {
   Follow follow;
   if (target.name == "densest") return follow;
   const std::string start = "halo=";
-  std::optional<double> number;
-  if (target.name.rfind(start, 0) == 0) number = parse_number(target.name.substr(start.size()));
-  constexpr double most = 2147483647;
-  if (number && *number >= 0 && *number <= most && *number == static_cast<int>(*number)) {
-    follow.halo = static_cast<int>(*number);
-    return follow;
-  }
+  if (target.name.rfind(start, 0) == 0)
+    follow.halo = parse_whole_number(target.name.substr(start.size()));
+  if (follow.halo) return follow;
   throw UsageError(fmt::format("{}: found {}, expected densest, or halo=N with a halo's number",
                                option_of(target), target.name));
 }

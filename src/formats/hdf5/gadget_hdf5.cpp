@@ -84,6 +84,7 @@ class GadgetHdf5Snapshot : public Snapshot {
   void note_negative_rates(const ParticleTypeInfo& type);
   static void name_unit_of_table_mass(const Hdf5File& file, ParticleTypeInfo& type);
   bool is_in_every_member(int type, const Hdf5Field& field) const;
+  void check_units(const std::vector<Hdf5Values>& parts) const;
   std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
   void choose_origin();
 
@@ -238,6 +239,22 @@ void GadgetHdf5Snapshot::choose_origin() {
   origin_ = find_position_origin(positions);
 }
 
+// Values of one file in another unit would be another quantity.
+void GadgetHdf5Snapshot::check_units(const std::vector<Hdf5Values>& parts) const {
+  std::optional<std::string> first;
+  for (const Hdf5Values& part : parts) {
+    const Hdf5File file(part.file);
+    const std::string unit = read_field_unit(file, part.dataset, read_units(file));
+    if (!first) first = unit;
+    if (unit == *first) continue;
+    throw DataError(fmt::format(
+        "{}: dataset {} is in \"{}\", but in \"{}\" in {}, expected one unit in all files of the "
+        "snapshot; write them anew",
+        part.file.string(), part.dataset.path, unit, *first,
+        parts.front().file.filename().string()));
+  }
+}
+
 Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
   const FieldInfo& field = require_field(info_, type, name);
   const std::optional<double> table_mass = require_type(info_, type).table_mass;
@@ -245,6 +262,7 @@ Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
     return Column::uniform(static_cast<float>(*table_mass));
   }
   const auto parts = find_parts(type, field.file_name);
+  if (parts.size() > 1) check_units(parts);
   if (field.name == "position") return read_column(parts, origin_);
   if (field.name == "smoothing_length") return read_column(parts, {}, smoothing_length_factor_);
   if (has_times_for_rates(field)) return at_least_zero(read_column(parts));

@@ -10,6 +10,7 @@
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_file.h"
 #include "formats/text/halo_lists.h"
+#include "formats/text/halo_spheres.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
@@ -172,7 +173,7 @@ HaloMembers read_by_ids(const fs::path& groups, std::uint64_t number) {
   const fs::path unbound = beside("catalog_particles.unbound");
   if (fs::is_regular_file(unbound)) append_ids(groups, unbound, "Offset_unbound", number - 1, ids);
   std::sort(ids.begin(), ids.end());
-  return {{}, std::move(ids)};
+  return {{}, std::move(ids), {}};
 }
 
 bool is_hdf5(const fs::path& path) {
@@ -199,6 +200,76 @@ std::optional<fs::path> membership_beside(const fs::path& properties) {
   return std::nullopt;
 }
 
+// By its particles where they are listed.
+HaloMembers read_halo_text(const fs::path& path, std::uint64_t number) {
+  if (has_halo_list(path)) return {{}, read_halo_list(path, number), {}};
+  if (auto sphere = read_halo_sphere(path, number)) return {{}, {}, std::move(sphere)};
+  throw DataError(fmt::format(
+      "{}: no halo {} in a list that Rockstar (out_*.list, .ascii, .particles) or AHF (AHF_halos, "
+      "AHF_particles) wrote, expected one of its identifiers, or a catalog in HDF5; select.ids "
+      "takes lists of particles' identifiers",
+      path.string(), number));
+}
+
+// SUBFIND: a halo's particles are those of its subhaloes, one after the other, then those of none.
+class Subhaloes {
+ public:
+  Subhaloes(const fs::path& path, int type)
+      : path_(path), members_(find_members(path, files_of(Hdf5File(path)))) {
+    for (const fs::path& member : members_) {
+      const Hdf5File file(member);
+      append(read_type_table(file, lengths_by_type), type, group_lengths_);
+      append(read_type_table(file, "/Subhalo/SubhaloLenType"), type, lengths_);
+      const char* const owner =
+          file.has("/Subhalo/SubhaloGroupNr") ? "/Subhalo/SubhaloGroupNr" : "/Subhalo/SubhaloGrNr";
+      if (!file.has(owner)) continue;
+      const ParticleNumbers owners = read_numbers(file, owner);
+      owners_.insert(owners_.end(), owners.begin(), owners.end());
+    }
+    if (owners_.size() != lengths_.size()) {
+      throw DataError(fmt::format(
+          "{}: {} subhaloes have a halo and {} have lengths by type, expected as many; the catalog "
+          "is damaged or of an unknown dialect",
+          path.string(), owners_.size(), lengths_.size()));
+    }
+  }
+
+  PlaceRange places_of(std::uint64_t number) const {
+    if (number >= lengths_.size()) refuse_number(path_, number, 0, lengths_.size());
+    const std::uint64_t owner = owners_[number];
+    PlaceRange range;
+    for (std::uint64_t halo = 0; halo < std::min<std::uint64_t>(owner, group_lengths_.size());
+         ++halo)
+      range.first += group_lengths_[halo];
+    for (std::uint64_t before = 0; before < number; ++before)
+      range.first += owners_[before] == owner ? lengths_[before] : 0;
+    range.count = lengths_[number];
+    return range;
+  }
+
+ private:
+  static void append(const TypeTable& table, int type, ParticleNumbers& lengths) {
+    for (std::uint64_t row = 0; row < table.haloes; ++row)
+      lengths.push_back(table.at(row, type));
+  }
+
+  const fs::path& path_;
+  std::vector<fs::path> members_;
+  ParticleNumbers group_lengths_, lengths_, owners_;
+};
+
+HaloMembers read_in_group(const PathInFile& path, std::uint64_t number, int type) {
+  if (path.group != "Subhalo") {
+    throw DataError(fmt::format(
+        "{}: found the group {}, expected the catalog alone for haloes, or {}/Subhalo for the "
+        "subhaloes of SUBFIND",
+        path.file.string(), path.group, path.file.string()));
+  }
+  HaloMembers members;
+  members.places.push_back(Subhaloes(path.file, type).places_of(number));
+  return members;
+}
+
 }  // namespace
 
 bool HaloMembers::has_place(std::uint64_t place) const {
@@ -209,7 +280,8 @@ bool HaloMembers::has_place(std::uint64_t place) const {
 }
 
 HaloMembers read_halo(const fs::path& path, std::uint64_t number, int type) {
-  if (!is_hdf5(path)) return {{}, read_halo_list(path, number)};
+  if (const auto within = path_in_file(path)) return read_in_group(*within, number, type);
+  if (!is_hdf5(path)) return read_halo_text(path, number);
   const Hdf5File file(path);
   if (file.has(lengths_by_type) || file.number("Header", "Ngroups_Total")) {
     return read_by_lengths(path, number, type);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -168,13 +169,38 @@ Column read_streamed_column(const std::vector<Hdf5Values>& parts, const Vec3& or
   return Column::made_by(std::make_shared<StreamedDatasets>(parts, reader));
 }
 
+namespace {
+
+// Some keep identifiers as floats: whole numbers as far as these have all of them. False for
+// others.
+bool append_whole_floats(const Hdf5File& file, const Hdf5Dataset& dataset,
+                         std::vector<std::uint64_t>& values) {
+  const double largest = dataset.is_single_precision() ? 16777216.0 : 9007199254740992.0;
+  bool are_whole = true;
+  for_pieces(file, dataset, [&](std::uint64_t first, std::uint64_t rows) {
+    std::vector<double> found(rows);
+    file.read_rows(dataset, first, rows, found.data());
+    for (const double value : found) {
+      const bool is_whole = value >= 0 && value <= largest && value == std::floor(value);
+      are_whole = are_whole && is_whole;
+      values.push_back(is_whole ? static_cast<std::uint64_t>(value) : 0);
+    }
+  });
+  return are_whole;
+}
+
+}  // namespace
+
 std::optional<std::vector<std::uint64_t>> read_integers(const std::vector<Hdf5Values>& parts) {
   std::vector<std::uint64_t> values;
   for (const Hdf5Values& part : parts) {
     const Hdf5File file(part.file);
     file.check_complete(part.dataset);
-    const bool is_integer = part.dataset.kind == Hdf5Dataset::Kind::integer;
-    if (!is_integer || part.dataset.values_per_row() != 1) return std::nullopt;
+    if (!part.dataset.is_number() || part.dataset.values_per_row() != 1) return std::nullopt;
+    if (part.dataset.kind == Hdf5Dataset::Kind::real) {
+      if (!append_whole_floats(file, part.dataset, values)) return std::nullopt;
+      continue;
+    }
     const std::size_t before = values.size();
     values.resize(before + part.dataset.rows());
     for_pieces(file, part.dataset, [&](std::uint64_t first, std::uint64_t rows) {

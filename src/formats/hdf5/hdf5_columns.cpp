@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <utility>
 
 #include "common/words.h"
@@ -92,6 +93,18 @@ std::optional<Hdf5Column> constant_in(const Hdf5File& file, const std::string& n
   const bool is_count = shape->size() == 1 && shape->front() >= 0 && shape->front() < 1e18;
   column.rows = is_count ? static_cast<std::uint64_t>(shape->front()) : 0;
   return column;
+}
+
+// A single mass or smoothing length is that of every particle.
+void add_number_for_all(const Hdf5File& file, const Hdf5Dataset& dataset, Hdf5Columns& found) {
+  const std::string name = field_label(dataset.label()), field = canonical_field_name(name);
+  const bool is_for_all = field == "mass" || field == "smoothing_length" || field == "density";
+  if (!is_for_all || !dataset.is_number()) return;
+  Hdf5Column column;
+  column.name = name;
+  column.owner = dataset.path;
+  file.read_rows(dataset, 0, 1, &column.constant);
+  found.columns.push_back(std::move(column));
 }
 
 bool is_axis(const std::string& name) {
@@ -185,10 +198,45 @@ void add_offsets(const Hdf5File& file, Hdf5Columns& found) {
                       found.columns.end());
 }
 
+// The texts of a list that Python has pickled in letters, "(lp0\nVx\np1\naVy\np2\na."; none for
+// anything else.
+std::vector<std::string> texts_in_pickle(const std::string& pickle) {
+  std::vector<std::string> texts;
+  std::istringstream lines(pickle);
+  std::string line;
+  if (!std::getline(lines, line) || line.compare(0, 2, "(l") != 0) return {};
+  while (std::getline(lines, line)) {
+    if (!line.empty() && line.front() == 'a') line.erase(0, 1);
+    if (line.empty()) return {};
+    const bool is_mark = line.front() == 'p' || line == ".";
+    if (is_mark) continue;
+    if (line.front() != 'V') return {};
+    texts.push_back(line.substr(1));
+  }
+  return texts;
+}
+
+// pandas' format="table": columns of one type are an array in each record, whose names an attribute
+// of the dataset tells. False for other members.
+bool add_values_block(const Hdf5File& file, const Hdf5Dataset& member, Hdf5Columns& found) {
+  const std::string label = member.label();
+  if (label.rfind("values_block_", 0) != 0 || !member.is_number()) return false;
+  const auto pickle = file.text(member.path, label + "_kind");
+  const std::vector<std::string> names = texts_in_pickle(pickle.value_or(""));
+  if (names.empty() || names.size() != member.values_per_row()) return false;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Hdf5Dataset part = member;
+    if (names.size() > 1) part.column = i;
+    found.columns.push_back(column_of(names[i], member.path, std::move(part)));
+  }
+  return true;
+}
+
 Hdf5Columns columns_of_records(const Hdf5File& file, const Hdf5Dataset& records) {
   Hdf5Columns found;
   for (Hdf5Dataset& member : file.members(records)) {
     member.path = records.path;
+    if (add_values_block(file, member, found)) continue;
     if (is_column(member)) {
       const std::string label = field_label(member.label());
       found.columns.push_back(column_of(label, records.path, std::move(member)));
@@ -202,7 +250,11 @@ Hdf5Columns columns_of_records(const Hdf5File& file, const Hdf5Dataset& records)
 Hdf5Columns columns_of_group(const Hdf5File& file, const std::string& group) {
   Hdf5Columns found;
   for (Hdf5Dataset& dataset : file.datasets(group)) {
-    if (dataset.shape.empty() || dataset.kind == Hdf5Dataset::Kind::records) continue;
+    if (dataset.kind == Hdf5Dataset::Kind::records) continue;
+    if (dataset.shape.empty()) {
+      add_number_for_all(file, dataset, found);
+      continue;
+    }
     add_dataset(std::move(dataset), found);
   }
   for (const std::string& name : file.groups(group)) {

@@ -30,8 +30,9 @@ bool is_stem_of_steps(const std::string& stem) {
   return std::find(known.begin(), known.end(), word) != known.end();
 }
 
-bool states_time(const Hdf5File& file, const std::string& group) {
-  return file.number(group, "time") || file.number(group, "Time");
+std::optional<double> time_of(const Hdf5File& file, const std::string& group) {
+  const auto time = file.number(group, "time");
+  return time ? time : file.number(group, "Time");
 }
 
 bool are_steps(const Hdf5File& file, const std::string& stem,
@@ -39,7 +40,7 @@ bool are_steps(const Hdf5File& file, const std::string& stem,
   if (groups.size() < 2) return false;
   return is_stem_of_steps(stem) ||
          std::all_of(groups.begin(), groups.end(),
-                     [&](const std::string& group) { return states_time(file, group); });
+                     [&](const std::string& group) { return time_of(file, group).has_value(); });
 }
 
 bool is_before(const std::string& a, const std::string& b) {
@@ -69,6 +70,21 @@ std::vector<NumberedGroup> numbered_groups(const std::string& path) {
   }
 }
 
+// Groups of other names, each at a time of its own.
+std::vector<std::string> steps_by_time(const Hdf5File& file,
+                                       const std::vector<std::string>& groups) {
+  std::map<double, std::string> by_time;
+  for (const std::string& group : groups) {
+    const auto time = time_of(file, group);
+    const bool is_type = find_particle_type(group.substr(group.rfind('/') + 1)).has_value();
+    if (!time || is_type || !by_time.emplace(*time, group).second) return {};
+  }
+  std::vector<std::string> steps;
+  for (const auto& [time, group] : by_time)
+    steps.push_back(group);
+  return steps.size() > 1 ? steps : std::vector<std::string>();
+}
+
 }  // namespace
 
 std::vector<std::string> find_steps(const Hdf5File& file, const std::vector<std::string>& groups) {
@@ -85,7 +101,7 @@ std::vector<std::string> find_steps(const Hdf5File& file, const std::vector<std:
     std::sort(steps.begin(), steps.end(), is_before);
     return std::move(steps);
   }
-  return {};
+  return steps_by_time(file, groups);
 }
 
 }  // namespace splotchcl

@@ -50,9 +50,10 @@ std::vector<TableColumn> with_units(const std::vector<Hdf5Column>& columns,
 
 Hdf5Table::Hdf5Table(const std::filesystem::path& path, const std::string& place,
                      std::vector<std::string>& notes)
-    : file_(path) {
-  Hdf5Columns found = columns_in(file_, place);
-  columns_ = with_units(found.columns, units_of_columns(file_, place, found.columns));
+    : path_(path) {
+  const Hdf5File file(path);
+  Hdf5Columns found = columns_in(file, place);
+  columns_ = with_units(found.columns, units_of_columns(file, place, found.columns));
   sources_ = std::move(found.columns);
   if (const auto guessed = guess_positions(columns_)) {
     notes.push_back(fmt::format("dataset {} is taken for the positions", sources_[*guessed].owner));
@@ -65,15 +66,11 @@ Hdf5Table::Hdf5Table(const std::filesystem::path& path, const std::string& place
                     "particles: {}",
                     place, rows_, fmt::join(found.others, ", ")));
   }
-  if (rows_ == 0) {
-    throw DataError(fmt::format("{}: the positions in {} have no rows; expected particles",
-                                path.string(), place));
-  }
 }
 
 Hdf5Table::Hdf5Table(const std::filesystem::path& path, std::vector<Hdf5Column> named)
-    : file_(path) {
-  columns_ = with_units(named, units_of_columns(file_, "", named));
+    : path_(path) {
+  columns_ = with_units(named, units_of_columns(Hdf5File(path), "", named));
   sources_ = std::move(named);
   rows_ = sources_.front().rows.value_or(0);
   for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -89,12 +86,13 @@ void Hdf5Table::keep_those_of_particles(std::vector<std::string>& left_out) {
     rows_ = sources_[*positions].rows.value_or(0);
   std::vector<TableColumn> columns;
   std::vector<Hdf5Column> sources;
+  std::vector<std::string> others;
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const std::vector<Hdf5Column::Term>& terms = sources_[i].terms;
     const bool are_rows = std::all_of(
         terms.begin(), terms.end(), [&](const auto& term) { return term.dataset.rows() == rows_; });
-    if (!are_rows || sources_[i].rows != rows_) {
-      left_out.push_back(sources_[i].name);
+    if (!are_rows || sources_[i].rows.value_or(rows_) != rows_) {
+      others.push_back(sources_[i].name);
       continue;
     }
     columns.push_back(columns_[i]);
@@ -102,6 +100,17 @@ void Hdf5Table::keep_those_of_particles(std::vector<std::string>& left_out) {
   }
   columns_ = std::move(columns);
   sources_ = std::move(sources);
+  refuse_lost_axis(others);
+  left_out.insert(left_out.end(), others.begin(), others.end());
+}
+
+void Hdf5Table::refuse_lost_axis(const std::vector<std::string>& others) const {
+  const std::string axis = lost_axis(columns_, others);
+  if (axis.empty()) return;
+  throw DataError(fmt::format(
+      "{}: {} has not the {} rows of the other axes of the positions; the file is damaged, or say "
+      "by read.columns which datasets belong together",
+      path_.string(), axis, rows_));
 }
 
 bool Hdf5Table::is_single_precision(std::size_t column) const {
@@ -111,20 +120,22 @@ bool Hdf5Table::is_single_precision(std::size_t column) const {
   return source.is_as_stored() && source.terms.front().dataset.is_single_precision();
 }
 
-std::uint64_t Hdf5Table::rows_at_a_time(const std::vector<TableValue>& wanted) const {
+std::uint64_t Hdf5Table::rows_at_a_time(const Hdf5File& file,
+                                        const std::vector<TableValue>& wanted) const {
   constexpr std::uint64_t of_constants = 1U << 20;
   std::uint64_t rows = std::max<std::uint64_t>(1, std::min(rows_, of_constants));
   for (const TableValue& value : wanted) {
     for (const Hdf5Column::Term& term : sources_[value.column].terms) {
-      file_.check_complete(term.dataset);
-      rows = std::min(rows, file_.rows_per_piece(term.dataset));
+      file.check_complete(term.dataset);
+      rows = std::min(rows, file.rows_per_piece(term.dataset));
     }
   }
   return rows;
 }
 
 void Hdf5Table::for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const {
-  const std::uint64_t piece = rows_at_a_time(wanted);
+  const Hdf5File file(path_);
+  const std::uint64_t piece = rows_at_a_time(file, wanted);
   std::map<std::size_t, ColumnPiece> pieces;  // of each column
   std::vector<double> values(wanted.size());
   for (std::uint64_t first = 0; first < rows_; first += piece) {
@@ -132,7 +143,7 @@ void Hdf5Table::for_rows(const std::vector<TableValue>& wanted, const UseRow& us
     pieces.clear();
     for (const TableValue& value : wanted) {
       if (pieces.count(value.column) > 0) continue;
-      pieces.emplace(value.column, ColumnPiece(file_, sources_[value.column], first, rows));
+      pieces.emplace(value.column, ColumnPiece(file, sources_[value.column], first, rows));
     }
     for (std::uint64_t row = 0; row < rows; ++row) {
       for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -150,7 +161,7 @@ void Hdf5Table::for_rows(const std::vector<TableValue>& wanted, const UseRow& us
 std::optional<std::vector<std::uint64_t>> Hdf5Table::integers(std::size_t column) const {
   const Hdf5Column& source = sources_[column];
   if (source.is_as_stored() && source.terms.front().dataset.kind == Hdf5Dataset::Kind::integer) {
-    return read_integers({{file_.path(), source.terms.front().dataset}});
+    return read_integers({{path_, source.terms.front().dataset}});
   }
   constexpr double largest = 9007199254740992.0;
   std::vector<std::uint64_t> numbers;

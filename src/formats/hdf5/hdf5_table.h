@@ -27,10 +27,12 @@ class Hdf5Table : public Table {
 
  private:
   void keep_those_of_particles(std::vector<std::string>& left_out);
+  void refuse_lost_axis(const std::vector<std::string>& others) const;
   // Rows that are read at a time, of columns that are there to their ends.
-  std::uint64_t rows_at_a_time(const std::vector<TableValue>& wanted) const;
+  std::uint64_t rows_at_a_time(const Hdf5File& file, const std::vector<TableValue>& wanted) const;
 
-  Hdf5File file_;
+  // Open only while it is read: others in this process may want to change it.
+  std::filesystem::path path_;
   std::vector<TableColumn> columns_;
   std::vector<Hdf5Column> sources_;  // of the columns
   std::uint64_t rows_ = 0;

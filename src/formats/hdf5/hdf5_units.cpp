@@ -68,6 +68,14 @@ UnitsOfFile read_units(const Hdf5File& file) {
   return {read_base_units(file), !is_without_cosmology(file)};
 }
 
+std::string read_unit_in_words(const Hdf5File& file, const std::string& object) {
+  for (const char* attribute : {"units", "unit", "Units", "Unit"}) {
+    const auto unit = file.text(object, attribute);
+    if (unit && !unit->empty() && *unit != "dimensionless") return *unit;
+  }
+  return {};
+}
+
 std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
                             const UnitsOfFile& units) {
   const std::string& path = dataset.path;
@@ -80,7 +88,8 @@ std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
   if (units.has_scale_factor) powers.scale_factor = read_scale_factor_power(file, path).value_or(0);
   powers.hubble =
       find_power(file, path, {"h_scaling", "h-scale exponent", "h-scale-exponent"}).value_or(0);
-  return unit_name(powers, units.base, size);
+  const std::string unit = unit_name(powers, units.base, size);
+  return unit.empty() && !states_powers(file, path) ? read_unit_in_words(file, path) : unit;
 }
 
 namespace {

@@ -27,8 +27,11 @@ struct UnitsOfFile {
 };
 UnitsOfFile read_units(const Hdf5File& file);
 
-// The unit that the attributes of a dataset of Gadget 4, AREPO, SWIFT or EAGLE state. Empty where
-// they state none.
+// What an attribute "units" or "unit" says; empty where there is none.
+std::string read_unit_in_words(const Hdf5File& file, const std::string& object);
+
+// The unit that the attributes of a dataset of Gadget 4, AREPO, SWIFT or EAGLE state, else what
+// read_unit_in_words() finds. Empty where they state none.
 std::string read_field_unit(const Hdf5File& file, const Hdf5Dataset& dataset,
                             const UnitsOfFile& units);
 

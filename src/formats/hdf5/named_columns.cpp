@@ -59,13 +59,6 @@ std::optional<Source> find_source(const Hdf5File& file, const std::string& group
                                file.path().string(), column.name, column.source, found, expected));
 }
 
-std::optional<std::uint64_t> whole_number(const std::string& text) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool is_all = error == std::errc() && end == text.data() + text.size();
-  return is_all ? std::optional(number) : std::nullopt;
-}
-
 Hdf5Dataset member_of(const Hdf5File& file, const Hdf5Dataset& records, const std::string& name,
                       const NamedColumn& column) {
   std::vector<std::string> labels;
@@ -101,7 +94,7 @@ Hdf5Dataset dataset_of(const Hdf5File& file, const std::string& group, const Nam
   }
   Hdf5Dataset dataset = file.dataset(source->path);
   for (const std::string& part : source->parts) {
-    const auto number = whole_number(part);
+    const auto number = parse_whole_number(part);
     if (dataset.kind == Hdf5Dataset::Kind::records) {
       dataset = member_of(file, dataset, part, column);
     } else if (number && dataset.is_number() && !dataset.column) {

@@ -106,7 +106,7 @@ class PhantomSnapshot : public Snapshot {
   Column read_dataset(int type, const std::string& label, const Vec3& origin, double factor) const;
   Column density(int type) const;
 
-  Hdf5File file_;
+  std::unique_ptr<const Hdf5File> file_;  // while it is being described
   SnapshotInfo info_;
   std::vector<ParticleField> fields_;
   std::map<int, PhantomType> types_;
@@ -116,8 +116,9 @@ class PhantomSnapshot : public Snapshot {
   Vec3 origin_ = {{0, 0, 0}};
 };
 
-PhantomSnapshot::PhantomSnapshot(const std::filesystem::path& path) : file_(path) {
-  const bool is_phantom = file_.has("/header/massoftype");
+PhantomSnapshot::PhantomSnapshot(const std::filesystem::path& path)
+    : file_(std::make_unique<const Hdf5File>(path)) {
+  const bool is_phantom = file_->has("/header/massoftype");
   info_.format = is_phantom ? "Phantom HDF5" : "HDF5 with a group particles, after sphNG";
   info_.files = {path};
   info_.time = header_number("time", 0);
@@ -126,20 +127,21 @@ PhantomSnapshot::PhantomSnapshot(const std::filesystem::path& path) : file_(path
   read_types();
   for (const auto& [number, particles] : types_)
     describe_type(number, particles);
-  if (file_.has("/sinks/xyz")) {
+  if (file_->has("/sinks/xyz")) {
     info_.notes.push_back(fmt::format("sinks left out, as they have no smoothing length: {}",
-                                      file_.dataset("/sinks/xyz").rows()));
+                                      file_->dataset("/sinks/xyz").rows()));
   }
-  info_.files_beside.assign(file_.links().followed.begin(), file_.links().followed.end());
+  info_.files_beside.assign(file_->links().followed.begin(), file_->links().followed.end());
   info_.files_mark = hash_of_files(info_).value();
-  note_refused(file_.links(), info_.notes);
+  note_refused(file_->links(), info_.notes);
   choose_origin();
+  file_.reset();  // others in this process may want to change it
 }
 
 void PhantomSnapshot::choose_origin() {
   const ParticleField& positions = *find_particle_field("xyz");
   if (positions.sources.size() == 1) {
-    origin_ = find_position_origin({{file_.path(), positions.sources.front()}});
+    origin_ = find_position_origin({{file_->path(), positions.sources.front()}});
     return;
   }
   const bool has_doubles = std::any_of(positions.sources.begin(), positions.sources.end(),
@@ -151,7 +153,7 @@ void PhantomSnapshot::choose_origin() {
     sample.resize(first + range.count);
     std::vector<double> values(range.count);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      file_.read_rows(positions.sources[axis], range.first, range.count, values.data());
+      file_->read_rows(positions.sources[axis], range.first, range.count, values.data());
       for (std::size_t i = 0; i < values.size(); ++i)
         sample[first + i][axis] = values[i];
     }
@@ -161,18 +163,18 @@ void PhantomSnapshot::choose_origin() {
 
 double PhantomSnapshot::header_number(const std::string& name, double otherwise) const {
   const std::string path = "/header/" + name;
-  if (!file_.has(path)) return otherwise;
-  const Hdf5Dataset dataset = file_.dataset(path);
+  if (!file_->has(path)) return otherwise;
+  const Hdf5Dataset dataset = file_->dataset(path);
   const bool is_number = dataset.is_number() && dataset.rows() * dataset.values_per_row() == 1;
   double value = otherwise;
-  if (is_number) file_.read_rows(dataset, 0, 1, &value);
+  if (is_number) file_->read_rows(dataset, 0, 1, &value);
   return value;
 }
 
 std::vector<float> PhantomSnapshot::header_array(const std::string& name) const {
   const std::string path = "/header/" + name;
-  if (!file_.has(path)) return {};
-  const Column values = read_column({{file_.path(), file_.dataset(path)}});
+  if (!file_->has(path)) return {};
+  const Column values = read_column({{file_->path(), file_->dataset(path)}});
   return {values.data(), values.data() + values.size()};
 }
 
@@ -180,10 +182,10 @@ void PhantomSnapshot::read_kernel() {
   hfact_ = header_number("hfact", hfact_);
   // The quintic kernel goes with hfact 1.0, the cubic one with 1.2.
   kernel_radius_ = hfact_ < 1.1 ? 3 : 2;
-  if (!file_.has("/particles/h")) return;
+  if (!file_->has("/particles/h")) return;
   info_.notes.push_back(fmt::format(
       "the file does not say which kernel was used: {} it is taken to reach {:g} h",
-      file_.has("/header/hfact") ? fmt::format("from hfact {:g}", hfact_) : "as in sphNG",
+      file_->has("/header/hfact") ? fmt::format("from hfact {:g}", hfact_) : "as in sphNG",
       kernel_radius_));
 }
 
@@ -191,12 +193,12 @@ void PhantomSnapshot::check_rows(const Hdf5Dataset& dataset, std::uint64_t rows)
   if (!dataset.shape.empty() && dataset.rows() == rows) return;
   throw DataError(
       fmt::format("{}: dataset {} has {} rows, but there are {} positions; the file is damaged",
-                  file_.path().string(), dataset.path, dataset.rows(), rows));
+                  file_->path().string(), dataset.path, dataset.rows(), rows));
 }
 
 void PhantomSnapshot::find_datasets() {
   std::vector<std::string> left_out;
-  for (const Hdf5Dataset& dataset : file_.datasets("/particles")) {
+  for (const Hdf5Dataset& dataset : file_->datasets("/particles")) {
     const std::uint64_t values = dataset.values_per_row();
     const bool is_usable = dataset.is_number() && (values == 1 || values == 3);
     if (is_usable) {
@@ -213,7 +215,7 @@ void PhantomSnapshot::find_datasets() {
     throw DataError(fmt::format(
         "{}: no positions: expected a dataset particles/xyz with three columns and some rows, or "
         "x, y and z; the file is incomplete, or no dump of Phantom or sphNG",
-        file_.path().string()));
+        file_->path().string()));
   }
   count_ = positions->sources.front().rows();
   for (const ParticleField& field : fields_) {
@@ -275,14 +277,14 @@ void PhantomSnapshot::read_types() {
 std::vector<int> PhantomSnapshot::read_type_numbers(std::vector<float>& itypes) {
   // Before memory is taken for as many as there should be.
   for (const Hdf5Dataset& source : find_particle_field("xyz")->sources)
-    file_.check_complete(source);
+    file_->check_complete(source);
   std::vector<int> numbers;
-  const bool has_types = file_.has("/particles/itype");
+  const bool has_types = file_->has("/particles/itype");
   const Column types = has_types ? read_numbers("itype") : Column::uniform(1);
   itypes.reserve(count_);
   for (std::size_t i = 0; i < count_; ++i)
     itypes.push_back(types[i]);
-  if (!has_types && file_.has("/particles/iphase")) {
+  if (!has_types && file_->has("/particles/iphase")) {
     const Column phases = read_numbers("iphase");
     for (std::size_t i = 0; i < count_; ++i)
       numbers.push_back(gadget_type_of_phase(phases[i]));
@@ -299,12 +301,12 @@ std::vector<int> PhantomSnapshot::read_type_numbers(std::vector<float>& itypes) 
 Column PhantomSnapshot::read_numbers(const std::string& label) const {
   const ParticleField* const field = find_particle_field(label);
   if (field != nullptr && field->values_per_particle() == 1) {
-    return read_column({{file_.path(), field->sources.front()}});
+    return read_column({{file_->path(), field->sources.front()}});
   }
   throw DataError(
       fmt::format("{}: dataset particles/{} is not one number per particle, as was expected; "
                   "the file is damaged",
-                  file_.path().string(), label));
+                  file_->path().string(), label));
 }
 
 void PhantomSnapshot::describe_type(int number, const PhantomType& particles) {
@@ -317,7 +319,7 @@ void PhantomSnapshot::describe_type(int number, const PhantomType& particles) {
     type.fields.push_back({"", field.label, static_cast<int>(field.values_per_particle()), ""});
   }
   name_fields(type);
-  if (find_field(type, "mass") == nullptr && file_.has("/header/massoftype")) {
+  if (find_field(type, "mass") == nullptr && file_->has("/header/massoftype")) {
     type.fields.push_back({"mass", mass_label, 1, ""});
     const std::vector<float>& masses = particles.masses;
     const bool is_one_mass =
@@ -336,9 +338,10 @@ void PhantomSnapshot::describe_type(int number, const PhantomType& particles) {
 Column PhantomSnapshot::read_dataset(int type, const std::string& label, const Vec3& origin,
                                      double factor) const {
   const ParticleField& field = *find_particle_field(label);
-  const Column all = field.sources.size() == 1
-                         ? read_column({{file_.path(), field.sources.front()}}, origin, factor)
-                         : read_axes(field, origin);
+  const Column all =
+      field.sources.size() == 1
+          ? read_column({{info_.files.front(), field.sources.front()}}, origin, factor)
+          : read_axes(field, origin);
   const std::vector<std::size_t>& particles = types_.at(type).particles;
   if (particles.size() == count_) return all;
   const std::size_t width = field.values_per_particle();
@@ -352,16 +355,17 @@ Column PhantomSnapshot::read_dataset(int type, const std::string& label, const V
 }
 
 Column PhantomSnapshot::read_axes(const ParticleField& field, const Vec3& origin) const {
+  const Hdf5File file(info_.files.front());
   for (const Hdf5Dataset& source : field.sources)
-    file_.check_complete(source);
+    file.check_complete(source);
   std::vector<float> values(3 * count_);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Hdf5Dataset& source = field.sources[axis];
-    const std::uint64_t piece = file_.rows_per_piece(source);
+    const std::uint64_t piece = file.rows_per_piece(source);
     std::vector<double> buffer;
     for (std::uint64_t first = 0; first < count_; first += piece) {
       buffer.resize(std::min(piece, count_ - first));
-      file_.read_rows(source, first, buffer.size(), buffer.data());
+      file.read_rows(source, first, buffer.size(), buffer.data());
       for (std::size_t i = 0; i < buffer.size(); ++i) {
         values[3 * (first + i) + axis] = static_cast<float>(buffer[i] - origin.a[axis]);
       }

@@ -53,8 +53,13 @@ std::map<int, std::string> choose_types(const std::vector<std::string>& groups, 
     if (!is_new) others.push_back(group);
   }
   if (!types.empty()) {
-    for (const std::string& group : others)
-      notes.push_back(fmt::format("group {} is left out: its name is no type of particles", group));
+    for (const std::string& group : others) {
+      const auto type = type_of_group(group);
+      notes.push_back(
+          type ? fmt::format("group {} is left out: {} has the particles of type {}", group,
+                             types.at(*type), *type)
+               : fmt::format("group {} is left out: its name is no type of particles", group));
+    }
     return types;
   }
   for (const std::string& group : others) {
@@ -110,6 +115,28 @@ std::vector<std::string> choose_step(const Hdf5File& file, const std::vector<std
       "first, and time.snapshots may list them",
       steps.size(), steps.front(), steps.back(), file.path().string()));
   return groups_below(groups, steps.back());
+}
+
+// Whoever keeps masses apart from positions misses them.
+void note_columns_elsewhere(const Hdf5File& file, const std::string& group, std::uint64_t rows,
+                            Notes& notes) {
+  const std::string parent = group == "/" ? group : with_outer_groups(group)[1];
+  const std::vector<std::string> used = columns_in(file, parent).used_groups;
+  for (const std::string& name : file.groups(parent)) {
+    const std::string path = parent == "/" ? parent + name : parent + "/" + name;
+    if (path == group || std::find(used.begin(), used.end(), name) != used.end()) continue;
+    std::vector<std::string> names;
+    const std::vector<Hdf5Column> columns = columns_in(file, path).columns;
+    if (find_positions(names_of(columns))) continue;
+    for (const Hdf5Column& column : columns) {
+      if (column.rows == rows) names.push_back(column.name);
+    }
+    if (names.empty()) continue;
+    notes.push_back(
+        fmt::format("left out of {}, which has no positions: {}; read.columns may name "
+                    "datasets of several groups",
+                    path, fmt::join(names, ", ")));
+  }
 }
 
 // The first of these attributes that is a number, or a dataset of a single one.
@@ -251,8 +278,20 @@ std::unique_ptr<Snapshot> PlainHdf5::make_snapshot(const std::string& group) {
 std::unique_ptr<Snapshot> PlainHdf5::open(const std::string& wanted_group) {
   const std::vector<std::string> groups =
       choose_step(file_, find_particle_groups(file_), wanted_group, info_.notes);
-  for (const auto& [type, group] : choose_types(groups, info_.notes))
-    add_table(type, std::make_unique<Hdf5Table>(file_.path(), group, info_.notes));
+  for (const auto& [type, group] : choose_types(groups, info_.notes)) {
+    auto table = std::make_unique<Hdf5Table>(file_.path(), group, info_.notes);
+    if (table->rows() > 0) {
+      add_table(type, std::move(table));
+    } else {
+      info_.notes.push_back(fmt::format("{} is left out: its positions have no rows", group));
+    }
+  }
+  if (groups.size() == 1 && !tables_.empty())
+    note_columns_elsewhere(file_, groups.front(), tables_.begin()->second->rows(), info_.notes);
+  if (tables_.empty()) {
+    throw DataError(fmt::format("{}: the positions in {} have no rows; expected particles",
+                                file_.path().string(), fmt::join(groups, ", ")));
+  }
   return make_snapshot(groups.size() == 1 ? groups.front() : common_group(groups));
 }
 

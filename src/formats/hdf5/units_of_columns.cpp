@@ -12,14 +12,6 @@
 namespace splotchcl {
 namespace {
 
-std::string unit_in_words(const Hdf5File& file, const std::string& object) {
-  for (const char* attribute : {"units", "unit", "Units", "Unit"}) {
-    const auto unit = file.text(object, attribute);
-    if (unit && !unit->empty() && *unit != "dimensionless") return *unit;
-  }
-  return {};
-}
-
 // The group or dataset whose attributes are those of all axes.
 std::string record_of(const std::string& component) {
   const std::size_t end = component.rfind('/');
@@ -49,7 +41,7 @@ bool is_position_of_openpmd(const Hdf5Column& column) {
 }
 
 std::string unit_of(const Hdf5File& file, const Hdf5Column& column, const UnitsOfFile& units) {
-  std::string unit = unit_in_words(file, column.owner);
+  std::string unit = read_unit_in_words(file, column.owner);
   if (unit.empty()) unit = unit_of_openpmd(file, column.owner);
   const auto size = file.number(column.owner, "unitSI");
   if (unit.empty() && is_position_of_openpmd(column) && size && *size > 0)

@@ -36,7 +36,8 @@ bool is_image(const NumpyHeader& header) {
 // Where the values of a column lie in an array.
 struct NumpyColumn {
   std::size_t array = 0;
-  StoredValues values;  // without its file
+  StoredValues values;             // without its file
+  std::optional<double> constant;  // the same for all, instead of values
 };
 
 struct NumpyArray {
@@ -80,6 +81,8 @@ class NumpyTable : public Table {
   std::uint64_t rows() const override { return rows_; }
   void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
   bool is_single_precision(std::size_t column) const override {
+    if (const auto& constant = places_[column].constant)
+      return static_cast<double>(static_cast<float>(*constant)) == *constant;
     return holds_single_precision(places_[column].values.kind);
   }
   std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
@@ -87,6 +90,7 @@ class NumpyTable : public Table {
  private:
   void open_archive(std::vector<std::string>& notes);
   void refuse_objects() const;
+  void refuse_other_kinds() const;
   void refuse_image() const;
   void read_numbers(SnapshotInfo& info);
   std::vector<TableColumn> arrays_as_columns() const;
@@ -97,6 +101,8 @@ class NumpyTable : public Table {
   void add_plain(std::size_t array, const std::vector<std::string>& names);
   void add_named(std::size_t array, const std::vector<std::string>& names);
   void add(const std::string& name, NumpyColumn column);
+  void add_number_for_all(const std::string& name, double value);
+  void refuse_lost_axis() const;
   std::shared_ptr<const MappedFile> content(std::size_t array) const;
 
   fs::path path_;
@@ -119,6 +125,7 @@ NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& nam
     arrays_.push_back(
         {"", read_numpy_header(file_->data(), file_->size(), file_->size(), path.string())});
     refuse_objects();
+    refuse_other_kinds();
     if (names.empty() && !numbers_columns) refuse_image();
   } else {
     info.format = "NumPy archive";
@@ -134,6 +141,7 @@ NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& nam
   choose_rows();
   for (std::size_t array = 0; array < arrays_.size(); ++array)
     add_array(array, names);
+  refuse_lost_axis();
   if (!left_out_.empty()) {
     info.notes.push_back(
         fmt::format("left out, as they are not one or three numbers for each of {} particles: {}",
@@ -182,6 +190,15 @@ void NumpyTable::refuse_objects() const {
       "an array of records or a numpy.savez archive of an array for each field");
 }
 
+// Of a single array.
+void NumpyTable::refuse_other_kinds() const {
+  const NumpyHeader& header = arrays_.front().header;
+  if (header.is_structured || header.members.front().is_usable) return;
+  throw DataError(path_.string() +
+                  ": holds values that are no real numbers, such as complex ones, texts or dates, "
+                  "expected whole numbers or floats: save array.real or array.astype(float)");
+}
+
 void NumpyTable::refuse_image() const {
   const NumpyHeader& header = arrays_.front().header;
   if (!is_image(header)) return;
@@ -207,7 +224,27 @@ void NumpyTable::read_numbers(SnapshotInfo& info) {
     const bool is_box =
         equal_ignoring_case(name, "box_size") || equal_ignoring_case(name, "BoxSize");
     if (is_box) info.box_size = box_of({value});
+    add_number_for_all(name, value);
   }
+}
+
+// A single mass or smoothing length is that of every particle.
+void NumpyTable::add_number_for_all(const std::string& name, double value) {
+  const std::string field = canonical_field_name(name);
+  if (field != "mass" && field != "smoothing_length" && field != "density") return;
+  NumpyColumn column;
+  column.values.values_per_particle = 1;
+  column.constant = value;
+  add(name, std::move(column));
+}
+
+void NumpyTable::refuse_lost_axis() const {
+  const std::string axis = lost_axis(columns_, left_out_);
+  if (axis.empty()) return;
+  throw DataError(fmt::format(
+      "{}: {} is not one number for each of {} particles, as the other axes of the positions are; "
+      "save arrays of one length",
+      path_.string(), axis, rows_));
 }
 
 // The plain arrays of an archive as columns, in their order; others have no name.
@@ -345,22 +382,28 @@ std::shared_ptr<const MappedFile> NumpyTable::content(std::size_t array) const {
 void NumpyTable::for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const {
   std::map<std::size_t, std::shared_ptr<const MappedFile>> contents;
   std::vector<StoredValues> stored;
+  std::vector<std::size_t> in_files;  // of the wanted
   for (const TableValue& value : wanted) {
     const NumpyColumn& column = places_[value.column];
+    stored.push_back(column.values);
+    if (column.constant) continue;
+    in_files.push_back(stored.size() - 1);
     auto& file = contents[column.array];
     if (!file) file = content(column.array);
-    stored.push_back(column.values);
     stored.back().file = file;
   }
   std::vector<double> values(wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    values[i] = places_[wanted[i].column].constant.value_or(0);
   for (std::uint64_t row = 0; row < rows_; ++row) {
-    for (std::size_t i = 0; i < wanted.size(); ++i)
+    for (const std::size_t i : in_files)
       values[i] = value_at(stored[i], row, wanted[i].axis);
     use(values.data());
   }
 }
 
 std::optional<std::vector<std::uint64_t>> NumpyTable::integers(std::size_t column) const {
+  if (places_[column].constant) return std::nullopt;
   StoredValues stored = places_[column].values;
   stored.file = content(places_[column].array);
   return make_integers({stored});

@@ -151,10 +151,10 @@ struct KindName {
   ValueKind kind;
 };
 constexpr KindName kind_names[] = {
-    {"f4", ValueKind::float32}, {"f8", ValueKind::float64}, {"i1", ValueKind::int8},
-    {"i2", ValueKind::int16},   {"i4", ValueKind::int32},   {"i8", ValueKind::int64},
-    {"u1", ValueKind::uint8},   {"u2", ValueKind::uint16},  {"u4", ValueKind::uint32},
-    {"u8", ValueKind::uint64},  {"b1", ValueKind::uint8}};
+    {"f2", ValueKind::float16}, {"f4", ValueKind::float32}, {"f8", ValueKind::float64},
+    {"i1", ValueKind::int8},    {"i2", ValueKind::int16},   {"i4", ValueKind::int32},
+    {"i8", ValueKind::int64},   {"u1", ValueKind::uint8},   {"u2", ValueKind::uint16},
+    {"u4", ValueKind::uint32},  {"u8", ValueKind::uint64},  {"b1", ValueKind::uint8}};
 
 // "<f4": endianness, kind, bytes. Kinds that are not read still have a length.
 NumpyMember parse_type(const std::string& text, const std::string& name) {

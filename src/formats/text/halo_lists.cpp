@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "common/mapped_file.h"
+#include "common/words.h"
 #include "formats/text/text_cells.h"
 #include "formats/text/text_lines.h"
 #include "splotchcl/error.h"
@@ -19,13 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using HaloIds = std::vector<std::uint64_t>;
 using WordsOfLine = std::vector<std::string_view>;
-
-std::optional<std::uint64_t> id_in(std::string_view word) {
-  std::uint64_t number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const bool is_id = error == std::errc() && end == word.data() + word.size();
-  return is_id ? std::optional(number) : std::nullopt;
-}
 
 [[noreturn]] void refuse_line(const fs::path& path, const TextLines& lines,
                               const std::string& expected) {
@@ -49,7 +42,7 @@ HaloIds ids_of_ahf_halos(const fs::path& path) {
   for (TextLines lines(*file); lines.next();) {
     if (lines.line().front() == '#') continue;
     const WordsOfLine words = split_cells(lines.line(), ' ');
-    const auto id = id_in(words.front());
+    const auto id = parse_whole_number(words.front());
     if (!id) refuse_line(path, lines, "a halo's identifier");
     ids.push_back(*id);
   }
@@ -100,7 +93,7 @@ class AhfParticles {
     return true;
   }
   std::uint64_t number(std::size_t word, const char* expected) const {
-    const auto found = id_in(words_[word]);
+    const auto found = parse_whole_number(words_[word]);
     if (!found) refuse_line(path_, lines_, expected);
     return *found;
   }
@@ -117,7 +110,7 @@ fs::path with_kind(const fs::path& path, const std::string& before, const std::s
   return path.parent_path() / name.replace(at, before.size(), after);
 }
 
-// Newer versions have identifiers beyond what select.halo may be; places count there.
+// Newer versions have identifiers beyond it, which nobody remembers: places count as well.
 constexpr std::uint64_t largest_number = 2147483647;
 
 HaloIds read_ahf(const fs::path& halos, const fs::path& particles, std::uint64_t number) {
@@ -127,8 +120,8 @@ HaloIds read_ahf(const fs::path& halos, const fs::path& particles, std::uint64_t
   for (std::uint64_t halo = 0; halo < list.haloes(); ++halo) {
     const std::uint64_t stated =
         list.begin_halo().value_or(halo < known.size() ? known[halo] : halo);
-    const std::uint64_t own = stated > largest_number ? halo : stated;
-    if (own != number) {
+    const bool is_it = stated == number || (stated > largest_number && halo == number);
+    if (!is_it) {
       list.skip_particles();
       continue;
     }
@@ -166,10 +159,10 @@ void append_rockstar(const fs::path& path, std::uint64_t number, HaloIds& ids) {
     }
     const WordsOfLine words = split_cells(lines.line(), ' ');
     const bool is_row = words.size() > std::max(columns.id, columns.halo);
-    const auto id = is_row ? id_in(words[columns.id]) : std::nullopt;
+    const auto id = is_row ? parse_whole_number(words[columns.id]) : std::nullopt;
     if (!id) refuse_line(path, lines, "a particle with its identifier and that of its halo");
     // -1: of a halo that is in no list.
-    if (id_in(words[columns.halo]) == number) ids.push_back(*id);
+    if (parse_whole_number(words[columns.halo]) == number) ids.push_back(*id);
   }
 }
 
@@ -177,7 +170,7 @@ void append_rockstar(const fs::path& path, std::uint64_t number, HaloIds& ids) {
 std::vector<fs::path> rockstar_files(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::size_t dot = stem.rfind('.');
-  if (dot == std::string::npos || !id_in(stem.substr(dot + 1))) return {path};
+  if (dot == std::string::npos || !parse_whole_number(stem.substr(dot + 1))) return {path};
   std::vector<fs::path> files;
   std::error_code ignored;
   for (int number = 0;; ++number) {
@@ -209,25 +202,29 @@ bool contains(const fs::path& path, const std::string& text) {
 
 }  // namespace
 
-HaloIds read_halo_list(const fs::path& path, std::uint64_t number) {
+namespace {
+
+fs::path with_extension(fs::path path, const char* extension) {
+  return path.replace_extension(extension);
+}
+
+}  // namespace
+
+bool has_halo_list(const fs::path& path) {
   std::error_code ignored;
+  if (contains(path, "AHF_particles") || path.extension() == ".particles") return true;
+  if (contains(path, "AHF_halos"))
+    return fs::is_regular_file(with_kind(path, "AHF_halos", "AHF_particles"), ignored);
+  return path.extension() == ".ascii" &&
+         fs::is_regular_file(with_extension(path, ".particles"), ignored);
+}
+
+HaloIds read_halo_list(const fs::path& path, std::uint64_t number) {
   if (contains(path, "AHF_particles"))
     return read_ahf(with_kind(path, "AHF_particles", "AHF_halos"), path, number);
-  if (contains(path, "AHF_halos")) {
-    const fs::path particles = with_kind(path, "AHF_halos", "AHF_particles");
-    if (fs::is_regular_file(particles, ignored)) return read_ahf(path, particles, number);
-  }
-  if (path.extension() == ".particles") return read_rockstar(path, number);
-  fs::path particles = path;
-  particles.replace_extension(".particles");
-  if (path.extension() == ".ascii" && fs::is_regular_file(particles, ignored))
-    return read_rockstar(particles, number);
-  throw DataError(fmt::format(
-      "{}: a text that does not say which particles a halo has, expected AHF_particles of AHF "
-      "(also "
-      "beside AHF_halos), .particles of Rockstar (also beside .ascii), or a catalog in HDF5; "
-      "select.ids takes lists of identifiers",
-      path.string()));
+  if (contains(path, "AHF_halos"))
+    return read_ahf(path, with_kind(path, "AHF_halos", "AHF_particles"), number);
+  return read_rockstar(with_extension(path, ".particles"), number);
 }
 
 }  // namespace splotchcl

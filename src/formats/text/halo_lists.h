@@ -6,6 +6,9 @@
 
 namespace splotchcl {
 
+// Whether read_halo_list() knows the text, by its name and what lies beside it.
+bool has_halo_list(const std::filesystem::path& path);
+
 // The identifiers of a halo's particles, in increasing order, from lists of text: AHF's
 // AHF_particles (also by the name of the AHF_halos beside it), where a halo is known by its own
 // identifier, or by its place from 0 where these files have none below 2^31; Rockstar's .particles,

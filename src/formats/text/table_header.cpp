@@ -9,6 +9,8 @@
 #include "formats/table_names.h"
 #include "formats/text/text_cells.h"
 #include "snapshot/field_names.h"
+#include "snapshot/unit.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
@@ -168,6 +170,87 @@ void add_ecsv_units(const std::vector<std::string_view>& comments,
     if (unit.empty() || named == names.end() || !split_unit(*named).unit.empty()) continue;
     *named += " [" + unit + "]";
   }
+}
+
+namespace {
+
+// Without brackets; empty where it says that there is none.
+std::string unit_in(const std::string& word) {
+  const std::string unit = trimmed(word, " \t[]()\"");
+  const bool is_none = unit == "-" || unit == "--" || unit == "1" || unit == "none" ||
+                       lower_case(unit) == "dimensionless";
+  return is_none ? std::string() : unit;
+}
+
+bool is_unit(const std::string& text) {
+  try {
+    parse_unit(text, UnitFactors{1, 1}, "");
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+namespace {
+
+// "Mpc/h" of "Units: Positions in Mpc / h (comoving)", with the factor a of comoving lengths.
+std::string unit_of_rockstar(const std::string& comment) {
+  const std::size_t begin = comment.find(" in ") + 4,
+                    end = std::min(comment.find('('), comment.size());
+  std::string unit = trimmed(comment.substr(begin, end - begin));
+  unit.erase(std::remove(unit.begin(), unit.end(), ' '), unit.end());
+  const bool is_comoving = comment.find("(comoving)") != std::string::npos;
+  return is_unit(unit) ? unit + (is_comoving ? " a" : "") : std::string();
+}
+
+// Which quantity a column of Rockstar's is; empty for others.
+const char* kind_of_rockstar(const std::string& name) {
+  const std::string lower = lower_case(name);
+  const auto begins_with = [&lower](const char* start) { return lower.rfind(start, 0) == 0; };
+  if (lower == "x" || lower == "y" || lower == "z") return "Positions";
+  if (lower == "rvir" || lower == "rs" || begins_with("rs_")) return "Halo Distances";
+  if (lower == "mvir" || begins_with("m200") || begins_with("m500") || begins_with("mbound"))
+    return "Masses";
+  if (lower == "vmax" || lower == "vrms" || lower == "vx" || lower == "vy" || lower == "vz")
+    return "Velocities";
+  return "";
+}
+
+}  // namespace
+
+void add_rockstar_units(const std::vector<std::string_view>& comments,
+                        std::vector<std::string>& names) {
+  for (const std::string_view line : comments) {
+    const std::string comment = trimmed(std::string(line));
+    const std::string start = "Units: ";
+    if (comment.rfind(start, 0) != 0 || comment.find(" in ") == std::string::npos) continue;
+    const std::string unit = unit_of_rockstar(comment);
+    for (std::string& name : names) {
+      const std::string kind = kind_of_rockstar(name);
+      const bool is_it = !kind.empty() && comment.compare(start.size(), kind.size(), kind) == 0;
+      if (is_it && !unit.empty() && split_unit(name).unit.empty()) name += " [" + unit + "]";
+    }
+  }
+}
+
+bool add_units_below(std::string_view line, std::vector<std::string>& names) {
+  std::vector<std::string> units;
+  for (const std::string& word : names_of_columns(without_blanks(line), names.size()))
+    units.push_back(unit_in(word));
+  const bool has_letters = std::any_of(units.begin(), units.end(), [](const std::string& unit) {
+    return unit.find_first_not_of("0123456789.eE+-^/* ") != std::string::npos;
+  });
+  const bool are_units =
+      has_letters && std::all_of(units.begin(), units.end(), [](const std::string& unit) {
+        return unit.empty() || is_unit(unit);
+      });
+  if (!are_units || units.size() != names.size()) return false;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!units[i].empty() && split_unit(names[i]).unit.empty()) names[i] += " [" + units[i] + "]";
+  }
+  return true;
 }
 
 std::vector<std::string> names_by_number(const std::vector<std::string_view>& comments,

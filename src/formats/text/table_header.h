@@ -18,6 +18,14 @@ std::vector<std::string> names_in_line(std::string_view line, bool begins_with_b
 // AHF's Xc(6); Points:0 of ParaView becomes "Points x"; Xc, Yc and Zc are x, y and z.
 std::vector<std::string> in_our_words(std::vector<std::string> names);
 
+// The units that Rockstar states in comments for its positions, radii, masses and velocities.
+void add_rockstar_units(const std::vector<std::string_view>& comments,
+                        std::vector<std::string>& names);
+
+// The units in a line below that of the names, where all of its words are such: "kpc kpc kpc Msun",
+// "[kpc], [kpc], [kpc], -". False where it is another line.
+bool add_units_below(std::string_view line, std::vector<std::string>& names);
+
 // Adds the units that a header of astropy (ECSV) states for each column, from its comments:
 // - {name: x, unit: kpc, datatype: float64}. Names that have a unit keep it.
 void add_ecsv_units(const std::vector<std::string_view>& comments, std::vector<std::string>& names);

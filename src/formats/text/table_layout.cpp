@@ -17,6 +17,7 @@ struct HeaderLines {
   std::vector<std::string_view> comments;
   std::vector<std::string_view> bars;  // lines between bars
   std::string_view line, whole_line;   // the last that is none of these; empty where there is none
+  std::string_view line_before;        // the last but one of these
   bool begins_with_blank = false;
   int others = 0;  // such lines
 };
@@ -72,7 +73,12 @@ std::vector<std::string> names_in_comments(const std::vector<std::string_view>& 
     if (names.size() != wanted)
       names = in_our_words(names_of_columns(without_blanks(*comment), wanted));
     if (names.size() != wanted) continue;
-    if (name_positions(names)) return names;
+    if (name_positions(names)) {
+      for (auto below = comments.rbegin(); below != comment; ++below)
+        add_units_below(*below, names);
+      add_rockstar_units(comments, names);
+      return names;
+    }
     if (last.empty()) last = std::move(names);
   }
   return last;
@@ -82,6 +88,11 @@ std::vector<std::string> names_in(const HeaderLines& header, std::size_t wanted)
   if (header.line.empty()) return names_in_comments(header.comments, wanted);
   std::vector<std::string> names =
       in_our_words(names_in_line(header.line, header.begins_with_blank, wanted));
+  if (!name_positions(names) && !header.line_before.empty()) {
+    std::vector<std::string> before =
+        in_our_words(names_in_line(header.line_before, false, wanted));
+    if (name_positions(before) && add_units_below(header.line, before)) names = std::move(before);
+  }
   add_ecsv_units(header.comments, names);
   return names;
 }
@@ -185,6 +196,7 @@ bool LayoutSearch::take(TableLayout layout) {
 }
 
 void LayoutSearch::add_other_line() {
+  header_.line_before = header_.line;
   header_.line = lines_.line();
   header_.whole_line = lines_.whole();
   header_.begins_with_blank = lines_.begins_with_blank();

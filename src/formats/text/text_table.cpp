@@ -12,6 +12,7 @@
 #include "formats/renamed_table.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
+#include "formats/table_names.h"
 #include "formats/text/table_layout.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
@@ -38,6 +39,7 @@ class TextTable : public Table {
   };
   void leave_out_line_of_counts(std::vector<std::string>& notes);
   void find_columns(const std::vector<std::string>& names, std::vector<std::string>& notes);
+  void refuse_lost_axis(const std::string& axis, const std::vector<std::string>& names) const;
   void count_rows();
   TextLines first_lines() const {
     return TextLines(*file_, layout_.first_row, layout_.lines_before);
@@ -91,8 +93,18 @@ void TextTable::find_columns(const std::vector<std::string>& names,
     }
   }
   if (left_out.empty()) return;
+  refuse_lost_axis(lost_axis(columns_, left_out), names);
   notes.push_back(
       fmt::format("columns left out, as they do not hold numbers: {}", fmt::join(left_out, ", ")));
+}
+
+void TextTable::refuse_lost_axis(const std::string& axis,
+                                 const std::vector<std::string>& names) const {
+  if (axis.empty()) return;
+  const auto column = std::find(names.begin(), names.end(), axis) - names.begin();
+  throw DataError(fmt::format("{}: line {}: column {}: found '{}', expected a number",
+                              file_->path().string(), layout_.lines_before + 1, axis,
+                              layout_.cells[static_cast<std::size_t>(column)].substr(0, 40)));
 }
 
 void TextTable::count_rows() {

@@ -153,6 +153,7 @@ def column(
     depth: float | str | None = None,
     size: tuple[int, int] | str | None = None,
     unit: str | None = None,
+    palette: str | None = None,
     noise: bool = False,
     channels: int | None = None,
     velocity_range: tuple[float, float] | None = None,
@@ -201,6 +202,8 @@ def column(
     unit : str, optional
         Of the map, such as "Msun/pc^2"; None: what the snapshot's units give, or those that arrays
         carry, without a and h. What they do not say is said by ``settings={"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}``.
+    palette : str, optional
+        Of figures.
     noise : bool
         Also the effective number of particles.
     channels : int, optional
@@ -236,6 +239,8 @@ def column(
     """
     keys = keys_of(size, tolerance, settings)
     keys |= _map_keys(field, weight, statistic, view, unit)
+    if palette is not None:
+        keys["map.palette"] = palette
     if isinstance(center, str):
         keys["map.center_at"], center = center, None
     lengths = {"map.center": center, "map.width": width, "map.depth": depth}

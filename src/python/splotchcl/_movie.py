@@ -10,13 +10,17 @@ from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from . import _core, _toml
+from . import _core
 from ._opencl import using_opencl
 from ._render import Progress, keys_of
 from ._scene import Scene
+from ._shown import Shown, settings_of
 from ._untrusted import check_pictures_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 @dataclass(frozen=True)
@@ -59,6 +63,7 @@ def movie(
     part: str = "",
     settings: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
+    **shown: Unpack[Shown],
 ) -> Film:
     """Draws a film along a scene's path, as ``splotchcl movie`` does (docs/movies.md).
 
@@ -76,7 +81,7 @@ def movie(
         "FIRST:END:STEP"; empty: all of the path.
     part : str
         "2/3" draws the second of three runs of frames, for several processes.
-    size, tolerance, device, settings
+    size, tolerance, device, settings, types, where, field, palette, center, width
         As for `render`.
     progress : callable, optional
         Called with what is being done and the fraction done before each frame. What it raises ends
@@ -88,7 +93,7 @@ def movie(
     KeyboardInterrupt
         Between two frames.
     """
-    pairs = [_toml.setting(k, v) for k, v in keys_of(size, tolerance, settings).items()]
+    pairs = settings_of(keys_of(size, tolerance, settings), shown)
     by_reference = device == "reference"
     name = "" if device is None or by_reference else device
     with tempfile.TemporaryDirectory() as folder:

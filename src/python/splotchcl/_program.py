@@ -20,7 +20,7 @@ def main() -> None:
         )
 
     def has_devices() -> bool:
-        command = [program, "devices"]
+        command = [str(program), "devices"]
         return subprocess.run(command, capture_output=True, check=False).returncode == 0
 
     choose_packaged_opencl(has_devices)

@@ -7,15 +7,19 @@ from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from . import _core, _toml
+from . import _core
 from ._core import UsageError
 from ._image import Image
 from ._opencl import using_opencl
 from ._scene import Scene
+from ._shown import Shown, settings_of
 from ._sources import Particles, Snapshot, Source
 from ._untrusted import check_pictures_of
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 Progress = Callable[[str, float], object]
 
@@ -34,6 +38,7 @@ def suggest(
     *,
     size: tuple[int, int] | str | None = None,
     settings: Mapping[str, Any] | None = None,
+    **shown: Unpack[Shown],
 ) -> Scene:
     """A scene that suits the data: camera, components, fields and palettes, all as numbers.
 
@@ -45,12 +50,14 @@ def suggest(
     settings : mapping, optional
         Scene keys that override what was chosen. ``look``, "press", "classic" or "paper", says
         what it is to look like.
+    types, where, field, palette, center, width
+        As for `render`.
 
     Raises
     ------
     UsageError, DataError
     """
-    return open_drawable(source, None, keys_of(size, None, settings)).scene
+    return open_drawable(source, None, keys_of(size, None, settings), shown).scene
 
 
 def keys_of(
@@ -77,12 +84,15 @@ def _sides(size: Any) -> list[int]:
 
 
 def open_drawable(
-    what: Scene | Source | str | os.PathLike[str], particles: Source | None, keys: dict[str, Any]
+    what: Scene | Source | str | os.PathLike[str],
+    particles: Source | None,
+    keys: dict[str, Any],
+    shown: Shown | None = None,
 ) -> Drawable:
-    """Whatever may be drawn, opened; with these scene keys."""
+    """Whatever may be drawn, opened; with these scene keys, and showing this."""
+    settings = settings_of(keys, shown or {})
     if isinstance(what, str | os.PathLike) and particles is None:
-        pairs = [_toml.setting(key, value) for key, value in keys.items()]
-        opened, data, notes, suggested = _core.open_scene(Path(what), pairs)
+        opened, data, notes, suggested = _core.open_scene(Path(what), settings)
         return Drawable(
             Scene._of(opened, suggested), _snapshot_of(data), notes + data.describe()["notes"]
         )
@@ -91,30 +101,24 @@ def open_drawable(
     if isinstance(what, Source):
         if particles is not None:
             raise UsageError("two sources of particles, expected a scene and particles, or one")
-        return _suggested(what, keys)
+        scene, notes, suggested = _core.show_snapshot(what._source, settings)
+        return Drawable(Scene._of(scene, suggested), what, _notes_of(what) + notes)
     if not isinstance(what, Scene):
         raise UsageError(
             f"found a {type(what).__name__}, expected a Scene, Snapshot, Particles or path"
         )
-    scene = what.copy()
-    scene.update(keys)
+    changed = what.copy()
+    changed.update(keys)
     if particles is None:
-        particles = _snapshot_of(_core.snapshot_of(scene._scene))
+        particles = _snapshot_of(_core.snapshot_of(changed._scene))
     elif not isinstance(particles, Source):
         raise UsageError(
             f"found a {type(particles).__name__}, expected Particles or a Snapshot"
         )
-    return Drawable(scene, particles, _notes_of(particles))
-
-
-def _suggested(source: Source, keys: dict[str, Any]) -> Drawable:
-    look = [_toml.setting("look", keys["look"])] if "look" in keys else []
-    suggested = _core.suggest(source._source, look)
-    scene = Scene._of(suggested, suggested)
-    scene.update({key: value for key, value in keys.items() if key != "look"})
-    notes = _notes_of(source)
-    not_drawn = _core.tell_not_drawn(scene._scene, source._source)
-    return Drawable(scene, source, notes + ([not_drawn] if not_drawn else []))
+    notes = []
+    if shown:
+        changed, notes = changed._showing(particles, settings)
+    return Drawable(changed, particles, _notes_of(particles) + notes)
 
 
 def _snapshot_of(data: _core.Source) -> Snapshot:
@@ -164,9 +168,10 @@ class Renderer:
         tolerance: float | None = None,
         settings: Mapping[str, Any] | None = None,
         progress: Progress | None = None,
+        **shown: Unpack[Shown],
     ) -> Image:
         """Draws one picture; arguments as those of `splotchcl.render`."""
-        drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings))
+        drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings), shown)
         return self._draw_one(drawable, progress)
 
     def render_all(
@@ -178,9 +183,10 @@ class Renderer:
         tolerance: float | None = None,
         settings: Mapping[str, Any] | None = None,
         progress: Progress | None = None,
+        **shown: Unpack[Shown],
     ) -> dict[str, Image]:
         """Draws every picture of a scene (eyes, faces), by what is added to their files' names."""
-        drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings))
+        drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings), shown)
         return self._draw(drawable, progress)
 
     def _draw_one(self, what: Drawable, progress: Progress | None) -> Image:
@@ -214,6 +220,7 @@ def render(
     certify: bool = False,
     settings: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
+    **shown: Unpack[Shown],
 ) -> Image:
     """Draws a picture.
 
@@ -233,6 +240,16 @@ def render(
         As for `Renderer`.
     settings : mapping, optional
         Scene keys that override the scene's.
+    types : str or sequence, optional
+        Only these particle types, such as "gas,stars".
+    where : str or sequence of str, optional
+        Only particles that fulfil this, such as "temperature > 1e6".
+    field, palette : str, optional
+        What colors show, also a formula of fields; and the palette.
+    center : 3 floats, or "densest", "mass", "box", "halo=12", optional
+    width : float or str, optional
+        The middle, and the width that is shown there, in the unit of positions or one of their own,
+        "4 Mpc".
     progress : callable, optional
         Called with what is being done and the fraction done, from 0 to 1, where reading, the search
         for neighbors or drawing take long. What it raises ends the work.
@@ -252,7 +269,7 @@ def render(
     KeyboardInterrupt
         While it reads or draws, when the device is done with a part of the particles.
     """
-    drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings))
+    drawable = open_drawable(scene, particles, keys_of(size, tolerance, settings), shown)
     return Renderer(device, certify=certify)._draw_one(drawable, progress)
 
 
@@ -263,13 +280,14 @@ def reference(
     size: tuple[int, int] | str | None = None,
     settings: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
+    **shown: Unpack[Shown],
 ) -> Image:
     """Draws a picture by the reference renderer: in double precision, and slowly.
 
     Arguments as those of `render`. ``render(...).compare(reference(...))`` says how exact a picture
     is.
     """
-    drawable = open_drawable(scene, particles, keys_of(size, None, settings))
+    drawable = open_drawable(scene, particles, keys_of(size, None, settings), shown)
     return Renderer("reference")._draw_one(drawable, progress)
 
 

@@ -177,15 +177,24 @@ class Scene(MutableMapping[str, Any]):
     def __str__(self) -> str:
         return self.to_toml()
 
-    # Each component's keys by its name, or its number where it has none.
+    # Each component's keys by its name and its number.
     def _ipython_key_completions_(self) -> list[str]:
-        names = [name or str(i) for i, name in enumerate(self._scene.component_names())]
+        own = self._scene.component_names()
+        names = [*filter(None, own), *(str(i) for i in range(len(own)))]
         keys = []
         for key in _core.scene_keys():
             table, _, rest = key.partition(".")
             of_components = [f"component.{name}.{rest}" for name in names]
             keys += of_components if table == "component" else [key]
         return keys
+
+    # What it shows of the data, by words of settings that are no keys.
+    def _showing(self, source: Source, settings: list[str]) -> tuple[Scene, list[str]]:
+        with _unknown_keys():
+            scene, notes, suggested = _core.show_scene(
+                self._scene, self._suggested, source._source, settings
+            )
+        return Scene._of(scene, suggested), notes
 
     def _change(self, settings: list[str]) -> None:
         with _unknown_keys():
@@ -210,9 +219,7 @@ class Scene(MutableMapping[str, Any]):
             place = place.get(name) if isinstance(place, dict) else None
             if place is None:
                 return None
-        if not isinstance(place, dict) or names[-1] not in place:
-            return None
-        return place, names[-1]
+        return None if not isinstance(place, dict) else _named(place, names[-1])
 
     # Names of components may hold dots.
     def _component(self, words: list[str]) -> tuple[int | None, int]:
@@ -236,6 +243,13 @@ class Scene(MutableMapping[str, Any]):
         except UsageError as error:
             if "an unknown key" in str(error) or not has_component:
                 raise UnknownKey(str(error)) from None
+
+
+# A formula is kept as the field that it stands for.
+def _named(table: dict[str, Any], name: str) -> tuple[dict[str, Any], str] | None:
+    if name == "formula" and _core.may_be_formula(str(table.get("field", ""))):
+        name = "field"
+    return (table, name) if name in table else None
 
 
 def _toml_or_empty(text: str) -> dict[str, Any]:

@@ -39,6 +39,27 @@ TEST_F(Hdf5Dialects, GizmosUnitsAreThoseOfItsHeader) {
 }
 
 // Clouds that form stars, in parsecs, solar masses and meters per second; their time is a time.
+TEST_F(Hdf5Dialects, UnitsInWordsCountWhereNothingElseStatesThem) {
+  {
+    const Hdf5Output file = create();
+    write_values(file, "PartType0/Masses", {1, 2});
+    write_text(file, "PartType0/Masses", "units", "Msun");
+  }
+  EXPECT_EQ(unit_of("mass"), "Msun");
+}
+
+TEST_F(Hdf5Dialects, SmoothingLengthsAreInTheUnitOfPositions) {
+  {
+    const Hdf5Output file = create();
+    write_text(file, "PartType0/Coordinates", "units", "Mpc");
+    write_values(file, "PartType0/SmoothingLength", {500, 2000});
+    write_text(file, "PartType0/SmoothingLength", "units", "kpc");
+  }
+  EXPECT_EQ(unit_of("smoothing_length"), "Mpc");
+  EXPECT_THAT(values_of(open_snapshot(path_)->read(0, "smoothing_length")),
+              ::testing::ElementsAre(0.5F, 2));
+}
+
 TEST_F(Hdf5Dialects, GizmoHasNoScaleFactorWithoutCosmology) {
   {
     const Hdf5Output file = create();

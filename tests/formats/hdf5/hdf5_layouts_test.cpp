@@ -153,6 +153,32 @@ TEST_F(Hdf5Layout, DataFramesOfPandasAreRead) {
   EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(10, 20));
 }
 
+// format="table": arrays in records, whose columns attributes name as Python pickles lists.
+TEST_F(Hdf5Layout, TablesOfPandasAreRead) {
+  struct Row {
+    double index, block[4];
+  };
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    make_group(file, "df");
+    const hsize_t columns = 4, count = 2;
+    const Hdf5Handle<H5Tclose> block(H5Tarray_create2(H5T_NATIVE_DOUBLE, 1, &columns));
+    const Hdf5Handle<H5Tclose> type(H5Tcreate(H5T_COMPOUND, sizeof(Row)));
+    H5Tinsert(type.id(), "index", 0, H5T_NATIVE_DOUBLE);
+    H5Tinsert(type.id(), "values_block_0", sizeof(double), block.id());
+    const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &count, nullptr));
+    const Hdf5Handle<H5Dclose> table(H5Dcreate2(file.id(), "df/table", type.id(), space.id(),
+                                                H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    const Row rows[] = {{0, {1, 2, 3, 10}}, {1, {4, 5, 6, 20}}};
+    H5Dwrite(table.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows);
+    write_text(file, "df/table", "values_block_0_kind",
+               "(lp0\nVx\np1\naVy\np2\naVz\np3\naVmass\np4\na.");
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(10, 20));
+}
+
 TEST_F(Hdf5Layout, PositionsInAPlaneHaveNoHeight) {
   {
     const Hdf5Output file = create_hdf5(path_);

@@ -330,7 +330,7 @@ TEST_F(HaloCatalog, VelociraptorsHaloesHaveBoundAndUnboundParticlesByIdentifier)
 
 TEST_F(HaloCatalog, OtherFilesAreRefused) {
   write_bytes(folder_ / "halos.txt", "1 2 3\n");
-  EXPECT_THAT(refusal_of("halos.txt", 0), HasSubstr("does not say which particles a halo has"));
+  EXPECT_THAT(refusal_of("halos.txt", 0), HasSubstr("no halo 0 in a list that Rockstar"));
   write_values(create_hdf5(folder_ / "other.hdf5"), "Coordinates", {1, 2, 3}, 3);
   EXPECT_THAT(refusal_of("other.hdf5", 0), HasSubstr("found no Group/GroupLenType"));
 }

@@ -171,7 +171,8 @@ TEST_F(PlainHdf5, StepsInTimeAreNotDrawnTogether) {
   for (const std::vector<std::string>& groups :
        {std::vector<std::string>{"Step#0", "Step#2", "Step#10"},
         {"0000", "0001", "0002"},
-        {"state_8", "state_9", "state_10"}}) {
+        {"state_8", "state_9", "state_10"},
+        {"start", "middle", "end"}}) {
     write_steps(path_, groups);
     const auto last = open_snapshot(path_);
     ASSERT_EQ(last->info().types.size(), 1U);
@@ -280,6 +281,73 @@ TEST_F(PlainHdf5, IdentifiersThatAreNotWholeAreRefused) {
   }
   EXPECT_THAT([&] { open_snapshot(path_)->read_ids(0); },
               ::testing::ThrowsMessage<DataError>(HasSubstr("not one whole number")));
+}
+
+TEST_F(PlainHdf5, IdentifiersMayBeWholeFloats) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "ids", {9007199254740991.0, 2});
+  }
+  EXPECT_THAT(open_snapshot(path_)->read_ids(0), ElementsAre(9007199254740991U, 2U));
+}
+
+TEST_F(PlainHdf5, ASingleMassIsThatOfAllParticles) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 3);
+    const Hdf5Handle<H5Sclose> space(H5Screate(H5S_SCALAR));
+    const Hdf5Handle<H5Dclose> mass(H5Dcreate2(file.id(), "mass", H5T_IEEE_F64LE, space.id(),
+                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    const double value = 2.5;
+    H5Dwrite(mass.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, &value);
+  }
+  EXPECT_THAT(values_of(open_snapshot(path_)->read(0, "mass")), ElementsAre(2.5F, 2.5F));
+}
+
+TEST_F(PlainHdf5, AnAxisOfAnotherLengthIsNotTakenForZero) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "x", {1, 4});
+    write_values(file, "y", {2, 5});
+    write_values(file, "z", {3, 6, 9});
+  }
+  EXPECT_THAT([&] { open_snapshot(path_); },
+              ::testing::ThrowsMessage<DataError>(HasSubstr("z has not the 2 rows")));
+}
+
+TEST_F(PlainHdf5, WhatOtherGroupsHaveOfAsManyParticlesIsSaid) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "where/pos", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "what/mass", {7, 8});
+    write_values(file, "what/other", {7, 8, 9});
+  }
+  EXPECT_THAT(open_snapshot(path_)->info().notes,
+              Contains(HasSubstr("left out of /what, which has no positions: mass;")));
+}
+
+TEST_F(PlainHdf5, ATypeWithoutRowsIsLeftOut) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "gas/pos", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "stars/pos", {}, 3);
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_EQ(snapshot->info().types.size(), 1U);
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("/stars is left out")));
+}
+
+// HDF5 lets nobody in a process change a file that another one of it has open.
+TEST_F(PlainHdf5, IsNotOpenWhileNothingIsRead) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 3);
+  }
+  const auto snapshot = open_snapshot(path_);
+  snapshot->read(0, "position");
+  const Hdf5Handle<H5Fclose> other(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+  EXPECT_TRUE(other.is_valid());
 }
 
 TEST_F(PlainHdf5, AHeaderThatCountsNothingIsNoObstacle) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "formats/numpy/numpy_writer.h"
 #include "formats/snapshot_checks.h"
@@ -51,6 +52,18 @@ TEST(NumpyArray, DoublesAreOffsetsFromAnOrigin) {
   write_bytes(folder / "a.npy",
               numpy_bytes(numpy_header("<f8", "(3, 3)"), bytes_of<double>(stored)));
   EXPECT_NEAR(positions(*open_snapshot(folder / "a.npy"))[0], stored[0], 1e-9);
+}
+
+TEST(NumpyArray, HalvesAreRead) {
+  const TemporaryFolder folder;
+  // 1, -2, the largest, the smallest, infinity, a third.
+  write_bytes(
+      folder / "a.npy",
+      numpy_bytes(numpy_header("<f2", "(2, 3)"),
+                  bytes_of<std::uint16_t>({0x3c00, 0xc000, 0x7bff, 0x0001, 0x7c00, 0x3555})));
+  EXPECT_THAT(positions(*open_snapshot(folder / "a.npy")),
+              ElementsAre(1, -2, 65504, 5.960464477539063e-8,
+                          std::numeric_limits<double>::infinity(), 0.333251953125));
 }
 
 TEST(NumpyArray, FurtherColumnsHaveNumbersOrTheNamesThatAreGiven) {
@@ -198,6 +211,25 @@ TEST_P(NumpyArchive, AxesInArraysOfTheirOwnAreJoined) {
             {{"z.npy", axis({3, 6})}, {"y.npy", axis({2, 5})}, {"x.npy", axis({1, 4})}},
             GetParam());
   EXPECT_THAT(positions(*open_snapshot(folder / "a.npz")), ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST_P(NumpyArchive, AnAxisOfAnotherLengthIsNotTakenForZero) {
+  const TemporaryFolder folder;
+  const std::string two = numpy_bytes(numpy_header("<f4", "(2,)"), bytes_of<float>({1, 4}));
+  const std::string three = numpy_bytes(numpy_header("<f4", "(3,)"), bytes_of<float>({1, 4, 7}));
+  write_zip(folder / "a.npz", {{"x.npy", two}, {"y.npy", two}, {"z.npy", three}}, GetParam());
+  EXPECT_THAT([&] { open_snapshot(folder / "a.npz"); },
+              ::testing::ThrowsMessage<DataError>(HasSubstr("z is not one number for each of 2")));
+}
+
+TEST_P(NumpyArchive, ASingleMassIsThatOfAllParticles) {
+  const TemporaryFolder folder;
+  write_zip(
+      folder / "a.npz",
+      {{"pos.npy", numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6}))},
+       {"mass.npy", numpy_bytes(numpy_header("<f8", "()"), bytes_of<double>({2.5}))}},
+      GetParam());
+  EXPECT_THAT(values_of(open_snapshot(folder / "a.npz")->read(0, "mass")), ElementsAre(2.5F, 2.5F));
 }
 
 TEST_P(NumpyArchive, TheOnlyRowsOfThreeThatAreNothingElseArePositions) {

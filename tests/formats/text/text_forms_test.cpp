@@ -51,6 +51,60 @@ TEST_F(TextForm, TextBeforeNamesOfPositionsIsLeftOut) {
               HasSubstr("no table"));
 }
 
+TEST_F(TextForm, UnitsMayStandInALineBelowTheNames) {
+  for (const char* const header :
+       {"# x y z mass t\n# kpc kpc kpc Msun -\n", "x y z mass t\n[kpc] [kpc] [kpc] [Msun] [1]\n",
+        "x,y,z,mass,t\nkpc,kpc,kpc,Msun,\n"}) {
+    const auto snapshot = open(std::string(header) + "1 2 3 7 9\n4 5 6 8 9\n");
+    EXPECT_EQ(unit_of(*snapshot, "position"), "kpc") << header;
+    EXPECT_EQ(unit_of(*snapshot, "mass"), "Msun") << header;
+    EXPECT_EQ(unit_of(*snapshot, "t"), "") << header;
+  }
+}
+
+TEST_F(TextForm, RockstarSaysTheUnitsOfKindsOfColumns) {
+  const auto snapshot = open(
+      "#ID Mvir Rvir X Y Z\n#a = 0.5\n#Units: Masses in Msun / h\n#Units: Positions in Mpc / h "
+      "(comoving)\n#Units: Halo Distances, Lengths, and Radii in kpc / h (comoving)\n1 2 3 4 5 "
+      "6\n2 3 4 5 6 7\n");
+  EXPECT_EQ(unit_of(*snapshot, "position"), "Mpc/h a");
+  EXPECT_EQ(unit_of(*snapshot, "Rvir"), "kpc/h a");
+  EXPECT_EQ(unit_of(*snapshot, "Mvir"), "Msun/h");
+}
+
+TEST_F(TextForm, OfColumnsOfOneNameTheFirstCounts) {
+  const auto snapshot = open("x,y,z,x,mass\n1,2,3,40,7\n4,5,6,50,8\n");
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_EQ(find_field(*snapshot->info().find_type(0), "x"), nullptr);
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("column 4 left out")));
+}
+
+TEST_F(TextForm, AnAxisOfOtherThanNumbersIsNotTakenForZero) {
+  EXPECT_THAT(refusal_of("x,y,z,m\n1,2,1_000,4\n4,5,6,7\n"),
+              HasSubstr("line 2: column z: found '1_000', expected a number"));
+  EXPECT_THAT(refusal_of("x,y,z,m\n1_000,2,3,4\n4,5,6,7\n"), HasSubstr("column x: found '1_000'"));
+}
+
+TEST_F(TextForm, UnitsThatAreNamedCountBeforeThoseOfTheFile) {
+  const auto snapshot = open("x [kpc],y [kpc],z [kpc],mass\n1,2,3,7\n4,5,6,8\n",
+                             {{}, 0, {"mass=Msun", "position=Mpc"}});
+  EXPECT_EQ(unit_of(*snapshot, "mass"), "Msun");
+  EXPECT_EQ(unit_of(*snapshot, "position"), "Mpc");
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
+  EXPECT_THAT(
+      snapshot->info().notes,
+      Contains(HasSubstr("position is taken to be in Mpc, as read.units says, not in kpc")));
+}
+
+TEST_F(TextForm, UnitsOfOtherFieldsAndOtherUnitsAreRefused) {
+  const std::string table = "x,y,z,mass\n1,2,3,7\n4,5,6,8\n";
+  EXPECT_THAT(refusal_of(table, {{}, 0, {"weight=kg"}}),
+              AllOf(HasSubstr("read.units: found weight"), HasSubstr("some of mass, position")));
+  EXPECT_THAT(refusal_of(table, {{}, 0, {"mass=stone"}}), HasSubstr("read.units.mass"));
+  EXPECT_THAT(refusal_of(table, {{}, 0, {"position=kg"}}),
+              HasSubstr("read.units.position: found kg, expected a unit such as cm"));
+}
+
 TEST_F(TextForm, RowsOfOtherLengthsBeforeTheNamedOnesAreLeftOut) {
   const auto snapshot =
       open("2 0 1\n0.5 1.66\n0 0 0 0 0 0 1\n1 2 3 7\n4 5 6 8\n", {{"x", "y", "z", "mass"}});

@@ -1,0 +1,158 @@
+#include "snapshot/named_units.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "snapshot/field_names.h"
+#include "snapshot/unit.h"
+#include "splotchcl/error.h"
+
+namespace splotchcl {
+namespace {
+
+struct FieldUnit {
+  std::string field, unit;
+};
+
+FieldUnit parse_field_unit(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) {
+    throw UsageError(
+        fmt::format("read.units: found \"{}\", expected FIELD=UNIT, such as mass=Msun", text));
+  }
+  return {text.substr(0, sign), text.substr(sign + 1)};
+}
+
+struct KindOfField {
+  const char* field;
+  std::vector<const char*> units;  // of which one has the dimension
+};
+
+// Whatever a and h are.
+void check_unit(const FieldUnit& named) {
+  static const std::vector<KindOfField> kinds = {
+      {"position", {"cm"}},      {"smoothing_length", {"cm"}},   {"softening", {"cm"}},
+      {"mass", {"g"}},           {"velocity", {"cm/s"}},         {"density", {"g/cm^3"}},
+      {"volume", {"cm^3"}},      {"internal_energy", {"erg/g"}}, {"temperature", {"K", "erg"}},
+      {"pressure", {"erg/cm^3"}}};
+  const UnitFactors any = {1, 1};
+  const std::string key = "read.units." + named.field;
+  const Unit unit = parse_unit(named.unit, any, key);
+  for (const KindOfField& kind : kinds) {
+    if (canonical_field_name(named.field) != kind.field) continue;
+    const bool fits = std::any_of(kind.units.begin(), kind.units.end(), [&](const char* like) {
+      return same_dimension(unit, parse_unit(like, any, key));
+    });
+    if (fits) return;
+    throw UsageError(fmt::format("{}: found {}, expected a unit such as {}", key, named.unit,
+                                 kind.units.front()));
+  }
+}
+
+[[noreturn]] void refuse_field(const FieldUnit& named, const SnapshotInfo& info) {
+  std::set<std::string> names;
+  for (const ParticleTypeInfo& type : info.types) {
+    for (const FieldInfo& field : type.fields)
+      names.insert(field.name);
+  }
+  throw UsageError(fmt::format("read.units: found {}, which {} does not have, expected some of {}",
+                               named.field, info.files.front().string(), fmt::join(names, ", ")));
+}
+
+FieldInfo* find_own(ParticleTypeInfo& type, const std::string& name) {
+  const FieldInfo* const found = find_field(type, name);
+  return found == nullptr ? nullptr : &type.fields[found - type.fields.data()];
+}
+
+void name_unit(const FieldUnit& named, SnapshotInfo& info) {
+  check_unit(named);
+  std::set<std::string> stated;
+  bool is_there = false;
+  for (ParticleTypeInfo& type : info.types) {
+    FieldInfo* const field = find_own(type, named.field);
+    if (field == nullptr) continue;
+    is_there = true;
+    if (!field->unit.empty() && field->unit != named.unit) stated.insert(field->unit);
+    field->unit = named.unit;
+  }
+  if (!is_there) refuse_field(named, info);
+  if (stated.empty()) return;
+  info.notes.push_back(fmt::format("{} is taken to be in {}, as read.units says, not in {}",
+                                   named.field, named.unit, fmt::join(stated, ", ")));
+}
+
+// What smoothing lengths of each type have to be multiplied by to be in the unit of positions.
+using SizeFactors = std::map<int, double>;
+
+SizeFactors factors_of_sizes(SnapshotInfo& info) {
+  constexpr double rounding = 1e-6;
+  SizeFactors factors;
+  for (ParticleTypeInfo& type : info.types) {
+    const FieldInfo* const position = find_field(type, "position");
+    FieldInfo* const size = find_own(type, "smoothing_length");
+    if (position == nullptr || size == nullptr) continue;
+    const auto ratio = ratio_of_known_units(size->unit, position->unit, unit_factors(info));
+    if (!ratio || std::abs(*ratio - 1) < rounding) continue;
+    info.notes.push_back(fmt::format("smoothing_length of type {} is converted from {} to {}",
+                                     type.type, size->unit, position->unit));
+    size->unit = position->unit;
+    factors[type.type] = *ratio;
+  }
+  return factors;
+}
+
+Column multiplied(const Column& column, double factor) {
+  if (!column.is_array()) return Column::uniform(static_cast<float>(factor * column[0]));
+  std::vector<float> values(column.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<float>(factor * static_cast<double>(column[i]));
+  return Column::owning(std::move(values));
+}
+
+class NamedUnitsSnapshot : public Snapshot {
+ public:
+  NamedUnitsSnapshot(std::unique_ptr<Snapshot> snapshot, SnapshotInfo info, SizeFactors factors)
+      : snapshot_(std::move(snapshot)), info_(std::move(info)), factors_(std::move(factors)) {}
+
+  const SnapshotInfo& info() const override { return info_; }
+  Column read(int type, const std::string& field) const override {
+    const Column values = snapshot_->read(type, field);
+    const auto factor = factors_.find(type);
+    if (factor == factors_.end()) return values;
+    const FieldInfo* const size = find_field(*info_.find_type(type), "smoothing_length");
+    return &require_field(info_, type, field) == size ? multiplied(values, factor->second) : values;
+  }
+  std::vector<std::uint64_t> read_ids(int type) const override { return snapshot_->read_ids(type); }
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override {
+    return snapshot_->read_integers(type, field);
+  }
+  std::uint64_t place_in_file(int type, std::uint64_t i) const override {
+    return snapshot_->place_in_file(type, i);
+  }
+  Vec3 position_origin() const override { return snapshot_->position_origin(); }
+
+ private:
+  std::unique_ptr<Snapshot> snapshot_;
+  SnapshotInfo info_;
+  SizeFactors factors_;
+};
+
+}  // namespace
+
+std::unique_ptr<Snapshot> with_named_units(std::unique_ptr<Snapshot> snapshot,
+                                           const std::vector<std::string>& units) {
+  SnapshotInfo info = snapshot->info();
+  for (const std::string& text : units)
+    name_unit(parse_field_unit(text), info);
+  SizeFactors factors = factors_of_sizes(info);
+  if (units.empty() && factors.empty()) return snapshot;
+  return std::make_unique<NamedUnitsSnapshot>(std::move(snapshot), std::move(info),
+                                              std::move(factors));
+}
+
+}  // namespace splotchcl
