@@ -15,6 +15,7 @@
 #include "common/file_identity.h"
 #include "film/follow/find_followed.h"
 #include "film/frames/suggest_film.h"
+#include "film/path/simplify_path.h"
 #include "load/passes.h"
 #include "sequence/list_sequence.h"
 #include "snapshot/snapshot_files.h"
@@ -118,6 +119,7 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
     const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);
     if (!note.empty()) notes_.push_back(note);
   }
+  scene_ = with_simple_path(std::move(scene_), notes_);
   path_.emplace(scene_, notes_, find_followed);
   path_->check(scene_);
   watch_files();
