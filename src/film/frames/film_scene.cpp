@@ -99,6 +99,12 @@ Camera upright(Camera camera, const ImageSettings& image) {
   return camera;
 }
 
+// Whether a setting says where the camera is.
+bool places_camera(const std::string& setting) {
+  const std::string key = setting.substr(0, setting.find('='));
+  return key == "camera.position" || key == "camera.look_at" || key == "camera.center";
+}
+
 }  // namespace
 
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
@@ -113,6 +119,10 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   opening.check();
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
+  }
+  if (opened.suggested && scene_.camera &&
+      std::none_of(settings.begin(), settings.end(), places_camera)) {
+    stand_amid_matter(*scene_.camera);
   }
   // A scene file that says how long its film is says what it is, too.
   if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {

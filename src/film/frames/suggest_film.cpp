@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,7 +86,25 @@ void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
   scene.camera->position += shift;
 }
 
+// Matter that the camera meets on its way around the target would lie over it as a veil.
+void let_matter_fade_before_target(Scene& scene) {
+  constexpr double part_of_way = 0.5;
+  Camera& camera = *scene.camera;
+  if (camera.near_limit || camera.fade.near_length > 0) return;
+  const CameraFrame shown = make_camera_frame(camera, scene.image.width, scene.image.height);
+  const double side = std::min(scene.image.width, scene.image.height) / shown.pixels_per_length;
+  const double wanted = scene.path.follow->size * find_followed(scene, {scene.time.index}).radius();
+  camera.fade.near_length = part_of_way * shown.look_at_distance * wanted / side;
+}
+
 }  // namespace
+
+void stand_amid_matter(Camera& camera) {
+  // What a picture of 45 degrees shows from afar is half as wide as the way to it, or wider.
+  constexpr double part_of_way = 0.2;
+  if (!is_wide_angle(camera.projection)) return;
+  camera.position = Vec3(camera.look_at + part_of_way * Vec3(camera.position - camera.look_at));
+}
 
 std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene) {
   PathSettings& path = scene.path;
@@ -107,7 +127,10 @@ std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Sce
   if (!has_target) return note_of(scene, list.size());
   path.follow = follow_of(target);
   show_box_around_target(snapshot, scene);
-  if (!target.is_approached) return "";
+  if (!target.is_approached) {
+    let_matter_fade_before_target(scene);
+    return "";
+  }
   path.approach.emplace();
   // Close to the densest place there is far more light than in the whole.
   if (!scene.finish.exposure) scene.finish.exposure_follows = true;

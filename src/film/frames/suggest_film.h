@@ -16,4 +16,8 @@ namespace splotchcl {
 // that is none, and for one in a scene with a path. Returns a note of what was chosen, or "".
 std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene);
 
+// Brings a camera that looks in all directions, and was chosen from the data as if it looked in one,
+// so near that matter is around it. Others stay.
+void stand_amid_matter(Camera& camera);
+
 }  // namespace splotchcl

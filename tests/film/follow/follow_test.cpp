@@ -260,6 +260,21 @@ TEST(SuggestedFilm, OfASnapshotIsAnOrbitThatEasesInAndOut) {
   EXPECT_EQ(film.path().frame_count(), 250);
 }
 
+TEST(SuggestedFilm, OfADomeStandsAmidTheMatter) {
+  const test::TemporaryFolder folder;
+  write_ball(folder / "snapshot_0", 50);
+  const auto distance = [&](std::vector<std::string> settings) {
+    settings.emplace_back("image.size=[64, 64]");
+    const Camera camera = *FilmScene(folder / "snapshot_0", settings).scene_at(0).camera;
+    return mag(camera.look_at - camera.position);
+  };
+  EXPECT_GT(distance({}), 60) << "from afar";
+  EXPECT_LT(distance({"camera.projection=fisheye"}), 40) << "within the box of 100";
+  const std::vector<std::string> own = {"camera.projection=fisheye", "camera.position=[50,50,500]",
+                                        "camera.look_at=[50,50,50]"};
+  EXPECT_NEAR(distance(own), 450, 1e-9);
+}
+
 TEST(SuggestedFilm, OfASequenceGoesThroughItsTime) {
   const test::TemporaryFolder folder;
   for (int i = 3; i < 6; ++i)
@@ -280,6 +295,9 @@ TEST(SuggestedFilm, OrbitsAroundWhatItFollows) {
     EXPECT_NEAR(mag(film.scene_at(frame).camera->look_at - place), 0, 1) << frame;
   }
   EXPECT_GT(mag(film.scene_at(4).camera->position - film.scene_at(0).camera->position), 1);
+  const Camera camera = *film.scene_at(0).camera;
+  const double distance = mag(camera.look_at - camera.position);
+  EXPECT_NEAR(camera.fade.near_length, 0.5 * distance, 1e-6 * distance);
 }
 
 TEST(SuggestedFilm, CanBeWrittenAsASceneAndIsTheSame) {
