@@ -50,3 +50,14 @@ def test_a_film_of_steps_of_one_file_goes_through_them(program, moving_ball, tmp
     # From 20 to the left to 20 to the right of the middle, seen from behind, of 100 across.
     steps = np.linspace(-20, 20, 9) / 100
     assert np.abs(places - (0.5 + steps)).max() < 0.02 or np.abs(places - (0.5 - steps)).max() < 0.02
+
+
+@pytest.mark.parametrize("words", [["--dive", "densest"], ["--follow", "densest"], []])
+def test_the_light_of_suggested_films_never_jumps(program, universe, tmp_path, words):
+    frames = 40
+    program("movie", universe, "-o", tmp_path / "f_%02d.png", "--reference", "--size", "48x32",
+            "--set", f"movie.frames={frames}", *words)
+    means = [Image.open(tmp_path / f"f_{i:02d}.png").linear[..., :3].mean() for i in range(frames)]
+    steps = np.abs(np.diff(means))
+    assert steps.max() < 0.15 * np.mean(means)
+    assert steps[0] < 0.02 * np.mean(means) and steps[-1] < 0.02 * np.mean(means), "it is eased"

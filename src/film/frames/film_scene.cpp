@@ -99,10 +99,11 @@ Camera upright(Camera camera, const ImageSettings& image) {
   return camera;
 }
 
-// Whether a setting says where the camera is.
+// Whether a setting says where the camera is, or how it looks at what is near.
 bool places_camera(const std::string& setting) {
   const std::string key = setting.substr(0, setting.find('='));
-  return key == "camera.position" || key == "camera.look_at" || key == "camera.center";
+  return key == "camera.position" || key == "camera.look_at" || key == "camera.center" ||
+         key == "camera.through_clouds";
 }
 
 }  // namespace

@@ -273,6 +273,8 @@ TEST(SuggestedFilm, OfADomeStandsAmidTheMatter) {
   const std::vector<std::string> own = {"camera.projection=fisheye", "camera.position=[50,50,500]",
                                         "camera.look_at=[50,50,50]"};
   EXPECT_NEAR(distance(own), 450, 1e-9);
+  const FilmScene film(folder / "snapshot_0", {"camera.projection=fisheye"});
+  EXPECT_GT(film.scene_at(0).camera->fade.near_length, 1) << "what comes close fades";
 }
 
 TEST(SuggestedFilm, OfASequenceGoesThroughItsTime) {
