@@ -52,11 +52,12 @@ def test_a_film_of_steps_of_one_file_goes_through_them(program, moving_ball, tmp
     assert np.abs(places - (0.5 + steps)).max() < 0.02 or np.abs(places - (0.5 - steps)).max() < 0.02
 
 
-@pytest.mark.parametrize("words", [["--dive", "densest"], ["--follow", "densest"], []])
-def test_the_light_of_suggested_films_never_jumps(program, universe, tmp_path, words):
-    frames = 40
-    program("movie", universe, "-o", tmp_path / "f_%02d.png", "--reference", "--size", "48x32",
-            "--set", f"movie.frames={frames}", *words)
+@pytest.mark.parametrize("words", [["--dive", "densest"], ["--follow", "densest"]])
+def test_the_light_of_suggested_films_never_jumps(program, tmp_path, words):
+    frames = 24
+    program("generate", "universe", "--particles", 2000, "-o", tmp_path / "universe.gadget")
+    program("movie", tmp_path / "universe.gadget", "-o", tmp_path / "f_%02d.png", "--reference",
+            "--size", "36x24", "--set", f"movie.frames={frames}", *words)
     means = [Image.open(tmp_path / f"f_{i:02d}.png").linear[..., :3].mean() for i in range(frames)]
     steps = np.abs(np.diff(means))
     assert steps.max() < 0.15 * np.mean(means)
