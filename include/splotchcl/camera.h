@@ -22,6 +22,21 @@ bool is_wide_angle(Projection projection);
 // The six faces of a cube as one picture of 3 x 2 faces, or as six.
 enum class CubeLayout { sheet, files };
 
+// A lens, through which a point out of focus is a disc, the circle of confusion: a Gaussian of the
+// disc's second moment here, which makes a cloud a wider one of the same light. Its diameter at the
+// distance of focus is aperture * |depth - focus| / depth.
+struct Lens {
+  double aperture = 0;  // its diameter, in lengths; 0: all is sharp
+  double focus = 0;     // the depth that is sharp, > 0 with an aperture
+};
+
+// How light fades with depth, smoothly: from none at the near limit, or at the camera, to all of it
+// so much farther, and to none at the far limit from so much before it. 0: not at all.
+struct DepthFade {
+  double near_length = 0, far_length = 0;  // in lengths
+  bool is_set() const { return near_length > 0 || far_length > 0; }
+};
+
 // Where the picture is taken from. Lengths are in the snapshot's length unit.
 struct Camera {
   Vec3 position = {{0, 0, 0}};
@@ -51,6 +66,11 @@ struct Camera {
   // audience, so many degrees above the dome's rim, and the sky is up; -90 to 90. Unset: the
   // look-at point is in the middle.
   std::optional<double> dome_tilt_degrees = std::nullopt;
+  // Of perspective cameras: a lens of this diameter, >= 0, and the depth of which it makes sharp
+  // pictures, > 0. Unset: the distance of the look-at point.
+  double aperture = 0;
+  std::optional<double> focus = std::nullopt;
+  DepthFade fade = {};  // its far length needs a far limit
 };
 
 // The field of view in degrees: as the camera says, by its width, or the projection's own.

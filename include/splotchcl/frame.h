@@ -59,6 +59,8 @@ struct Frame {
   Projection projection = Projection::perspective;
   std::optional<double> near_limit, far_limit;   // as Camera has them, in lengths
   bool through_clouds = false;                   // as Camera has it
+  DepthFade fade;                                // likewise
+  Lens lens;                                     // of perspective cameras
   std::array<double, 3> background = {0, 0, 0};  // linear light behind everything, >= 0
   // Light behind everything, pixel by pixel, instead of `background`: width x height
   // pixels, linear, finite and >= 0. Null: there is none.

@@ -88,8 +88,10 @@ class FrameDrawer {
 
   // Throws as load_frame and Renderer::render do.
   DrawnFrame draw(const Scene& scene, const Snapshot& snapshot);
-  // For the frames of a film, which keep what other scenes they fade to.
-  DrawnFrame draw(const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes);
+  // For the frames of a film, which keep what other scenes they fade to. With moments, which have
+  // the same views, the light is the mean of theirs.
+  DrawnFrame draw(const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes,
+                  const std::vector<Moment>& moments = {});
   // For a frame of the scene that has been loaded already, with any crop.
   DrawnFrame draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot);
 

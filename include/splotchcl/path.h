@@ -84,6 +84,9 @@ struct PathSettings {
   // In degrees per second: the view begins to turn earlier, and ends later, where it would turn
   // faster. > 0; unset: any.
   std::optional<double> max_turn_rate;
+  // Leaves out keyframes that those that stay replace but for so much: of the distance to the
+  // look-at point, of a radian, of all that a number changes. > 0; unset: all stay.
+  std::optional<double> simplified_within;
 
   // Whether there is anything that changes.
   bool is_set() const {

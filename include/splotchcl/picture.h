@@ -1,11 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "splotchcl/image.h"
 #include "splotchcl/pixel_places.h"
+#include "splotchcl/scene.h"
 #include "splotchcl/views.h"
 
 namespace splotchcl {
@@ -25,6 +28,12 @@ struct Picture {
   Image image;              // as shown; empty where that was not asked for
   Image light = {};         // as drawn, likewise
   PixelPlaces places = {};  // in the views that it shows
+};
+
+// One of those moments whose mean light a picture with motion blur has.
+struct Moment {
+  Scene scene;
+  std::function<std::shared_ptr<const Snapshot>()> snapshot;  // opened when it is drawn
 };
 
 // Everything between a scene and the pictures that are written: loads the frame, draws its

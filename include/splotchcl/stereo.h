@@ -17,8 +17,9 @@ enum class StereoEyes {
   centered,       // each eye half a step to its side of the camera
 };
 
-// Two files; one picture of both, the left eye left or on top; or one picture in which each eye
-// sees its own through a red glass (left) and a cyan one (right): anaglyphs.
+// Two files; one picture of both, the left eye left or on top; the same of the size of one, each
+// eye squeezed to half; or one picture in which each eye sees its own through a red glass (left)
+// and a cyan one (right): anaglyphs.
 //   anaglyph             by the least squares of Dubois (ICASSP 2001): colors as far as glasses let
 //                        them through, and the least of the other eye's picture
 //   anaglyph_half_color  red of the left eye's luminance, green and blue of the right eye
@@ -27,6 +28,8 @@ enum class StereoLayout {
   files,
   side_by_side,
   top_bottom,
+  side_by_side_half,
+  top_bottom_half,
   anaglyph,
   anaglyph_half_color,
   anaglyph_gray
@@ -36,6 +39,11 @@ enum class StereoLayout {
 inline bool is_anaglyph(StereoLayout layout) {
   return layout == StereoLayout::anaglyph || layout == StereoLayout::anaglyph_half_color ||
          layout == StereoLayout::anaglyph_gray;
+}
+
+// Whether each eye's picture is squeezed to half its width or height.
+inline bool is_squeezed(StereoLayout layout) {
+  return layout == StereoLayout::side_by_side_half || layout == StereoLayout::top_bottom_half;
 }
 
 // Two eyes that lie angle * |look_at - position| apart (the angle in radians).

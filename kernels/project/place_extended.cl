@@ -2,6 +2,7 @@
 // single precision.
 #include "kernels/common/grid.h"
 #include "kernels/extended/extended.cl"
+#include "kernels/project/depth_fade.cl"
 #include "kernels/project/project.h"
 #include "kernels/project/wide_angle_extended.cl"
 
@@ -10,6 +11,7 @@
 typedef struct ExtendedPlace {
   Extended x, y;   // pixels of the whole picture
   Extended scale;  // pixels per length of a width
+  Extended depth;  // where light fades with it
   int seen;
   Extended cos_latitude, sine_latitude;  // equirectangular
 } ExtendedPlace;
@@ -54,6 +56,7 @@ static inline ExtendedPlace extended_place_in_wide_angle(__global const float* p
   place.x = extended_sum(extended_pair(e.center_x), seen.x);
   place.y = extended_sum(extended_pair(e.center_y), seen.y);
   place.scale = extended_scaled(seen.scale, per_unit);
+  place.depth = extended_scaled(seen.distance, extended_power_of_two(exponent));
   place.seen = seen.seen;
   place.cos_latitude = seen.cos_latitude;
   place.sine_latitude = seen.sine_latitude;
@@ -68,9 +71,11 @@ static inline ExtendedPlace extended_place_in_plane(__global const float* positi
   ExtendedPlace place;
   place.seen = 1;
   place.scale = extended_pair(e.pixels_per_length);
+  place.depth = extended_of(0.0f);
+  if (p.perspective || has_fade(p)) place.depth = extended_dot(d, e.forward);
   if (p.perspective) {
     // Depths have been compared with the limits as keys, and may be 0 here.
-    Extended depth = extended_dot(d, e.forward);
+    Extended depth = place.depth;
     if (high_part(depth) < p.least_depth) depth = extended_of(p.least_depth);
     place.scale = extended_quotient(place.scale, depth);
   }

@@ -106,6 +106,10 @@ struct ProjectParameters {
   float kernel_cut;       // in sigma; 0: uncut
   float min_radius;       // pixels
   float footprint_sigma;  // of kernel.footprint, sqrt(2) of it; pixels
+  // Of a lens: what it adds to widths per difference from the scale in focus; 0: none.
+  float lens_sigma, scale_in_focus;
+  // Where light begins to rise with depth and ends to fall, and by which part per length; 0: not.
+  float fade_begin, inverse_near_fade, fade_end, inverse_far_fade;
   // On a face of a cube, what a pixel adds to sigma^2, and what it makes of it at least; 0 and 0
   // where it takes the value at its center (src/scene/projection.h, FaceEllipse).
   float footprint, narrowest_squared;
@@ -196,6 +200,8 @@ struct ExtendedParameters {
   struct FloatPair period, eye_offset, turn_axis[3];  // as in ProjectParameters
   struct FloatPair twice_pole[2];                     // in the whole picture
   struct FloatPair size_factor, kernel_width, min_radius, footprint_sigma;
+  struct FloatPair lens_sigma, scale_in_focus;
+  struct FloatPair fade_begin, inverse_near_fade, fade_end, inverse_far_fade;
   int is_cut;
   struct FloatPair kernel_cut;
   float reach_of_mean;            // in pixels, by which a pixel sees a splat from beside its center

@@ -5,6 +5,7 @@
 #include "kernels/common/splat.h"
 #include "kernels/extended/extended.cl"
 #include "kernels/extended/extended_splat.h"
+#include "kernels/project/depth_fade.cl"
 #include "kernels/project/face_ellipse_extended.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/place_extended.cl"
@@ -99,16 +100,23 @@ static inline void extended_width(float raw, Extended h, Extended scale, const P
   const Extended width = extended_pair(e.kernel_width);
   const Extended h_pixels = extended_product(h, scale);
   *sigma = extended_product(width, h_pixels);
-  if (p.min_radius > 0.0f) {
+  if (p.min_radius > 0.0f) {  // without a lens
     const Extended least = extended_pair(e.min_radius);
     const Extended h_drawn = extended_root(
         extended_sum(extended_product(h_pixels, h_pixels), extended_product(least, least)));
     *weight = extended_product(extended_column(raw, h, p, e), extended_quotient(h_pixels, h_drawn));
     *sigma = extended_product(width, h_drawn);
-  } else if (p.footprint_sigma > 0.0f || high_part(*sigma) < NARROWEST_EXTENDED_SIGMA) {
+  } else if (p.footprint_sigma > 0.0f || p.lens_sigma > 0.0f ||
+             high_part(*sigma) < NARROWEST_EXTENDED_SIGMA) {
     const Extended footprint = extended_pair(e.footprint_sigma);
     Extended drawn = extended_root(
         extended_sum(extended_product(*sigma, *sigma), extended_product(footprint, footprint)));
+    if (p.lens_sigma > 0.0f) {
+      const Extended of_lens = extended_product(
+          extended_pair(e.lens_sigma), extended_difference(scale, extended_pair(e.scale_in_focus)));
+      drawn = extended_root(
+          extended_sum(extended_product(drawn, drawn), extended_product(of_lens, of_lens)));
+    }
     if (high_part(drawn) < NARROWEST_EXTENDED_SIGMA) drawn = extended_of(NARROWEST_EXTENDED_SIGMA);
     const Extended widened = extended_quotient(drawn, extended_product(width, scale));
     *weight = extended_weight_of_widened(extended_column(raw, widened, p, e),
@@ -117,6 +125,28 @@ static inline void extended_width(float raw, Extended h, Extended scale, const P
   } else {
     *weight = extended_column(raw, h, p, e);
   }
+}
+
+static inline Extended extended_rising(Extended part) {
+  if (!(high_part(part) > 0.0f)) return extended_of(0.0f);
+  if (high_part(part) >= 1.0f) return extended_of(1.0f);
+  const Extended slope = extended_difference(extended_of(3.0f), extended_scaled(part, 2.0f));
+  return extended_product(extended_product(part, part), slope);
+}
+// As part_after_fade() does it for lanes.
+static inline Extended extended_after_fade(Extended weight, Extended depth,
+                                           const ProjectParameters p, const ExtendedParameters e) {
+  if (p.inverse_near_fade > 0.0f) {
+    const Extended risen = extended_difference(depth, extended_pair(e.fade_begin));
+    weight = extended_product(
+        weight, extended_rising(extended_product(risen, extended_pair(e.inverse_near_fade))));
+  }
+  if (p.inverse_far_fade > 0.0f) {
+    const Extended left = extended_difference(extended_pair(e.fade_end), depth);
+    weight = extended_product(
+        weight, extended_rising(extended_product(left, extended_pair(e.inverse_far_fade))));
+  }
+  return weight;
 }
 
 static inline void extended_knots(__global const float* knots, uint first, uint count,
@@ -290,6 +320,7 @@ static inline int extended_splat(uint i, const ProjectParameters p, const Extend
   weight = extended_product(extended_limited_weight(weight, brightest * share),
                             extended_normalized(columns.intensities[(size_t)i * p.intensity_stride],
                                                 p.intensity.scaling, e.intensity));
+  if (has_fade(p)) weight = extended_after_fade(weight, place.depth, p, e);
   Extended emission[3], absorption[3];
   const Extended position =
       extended_normalized(columns.colors[(size_t)i * p.color_stride], p.color.scaling, e.color);

@@ -2,6 +2,7 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/project/around.cl"
+#include "kernels/project/depth_fade.cl"
 #include "kernels/project/limits.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"
@@ -45,8 +46,9 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   const VALUE brightest = brightest_color(particles, p), share = share_of_peak(widths);
   VALUE center_weight = find_weight(particles.weight, view, widths, p);
   if (FACE_OF_CUBE) center_weight *= widths.part;
-  const VALUE weight = limited_weight(center_weight, brightest * share) *
-                       normalized(particles.intensity, p.intensity);
+  VALUE weight = limited_weight(center_weight, brightest * share) *
+                 normalized(particles.intensity, p.intensity);
+  if (has_fade(p)) weight *= part_after_fade(view.depth, p);
   const VALUE amplitude = weight * brightest;
   const BrightnessLanes brightness =
       find_brightness(amplitude * share * counted_part(amplitude, p), widths, needs, p);

@@ -33,7 +33,7 @@ typedef struct SplatLanes {
 // Widths in the picture's pixels, before any pixel mean is taken.
 typedef struct WidthLanes {
   VALUE h;  // in lengths
-  // Without and with kernel.min_radius, kernel.footprint and NARROWEST_SIGMA.
+  // Without and with kernel.min_radius, kernel.footprint, a lens and NARROWEST_SIGMA.
   VALUE sigma_true, sigma;
   VALUE sigma_weighed;  // the same, before panoramas keep it from being wider than WIDEST_ANGLE
   VALUE sigma_x;        // of a panorama
@@ -59,9 +59,13 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
   widths.h = raw_h * p.size_factor;
   widths.sigma_true = p.sigma_per_h * raw_h * view.scale;
   const float widened_by = max(p.kernel_width * p.min_radius, p.footprint_sigma);  // one is 0
-  const VALUE sigma = widened_by > 0.0f
-                          ? sqrt(widths.sigma_true * widths.sigma_true + widened_by * widened_by)
-                          : widths.sigma_true;
+  VALUE sigma = widened_by > 0.0f
+                    ? sqrt(widths.sigma_true * widths.sigma_true + widened_by * widened_by)
+                    : widths.sigma_true;
+  if (p.lens_sigma > 0.0f) {
+    const VALUE of_lens = p.lens_sigma * (view.scale - p.scale_in_focus);
+    sigma = sqrt(sigma * sigma + of_lens * of_lens);
+  }
   widths.sigma = widths.sigma_weighed = max(sigma, (VALUE)(NARROWEST_SIGMA));
   if (FACE_OF_CUBE) {
     const float per_focal = 1.0f / p.pixels_per_length;
@@ -92,7 +96,7 @@ INLINED ViewLanes place_of_splat(ViewLanes view, const WidthLanes widths) {
 // w of a splat of width widths.sigma, before its intensity.
 INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widths,
                           const ProjectParameters p) {
-  if (p.min_radius > 0.0f) {
+  if (p.min_radius > 0.0f) {  // without a lens
     // The radius cancels out.
     if (p.weight_model == WEIGHT_CONSTANT) {
       return raw * (p.weight_scale * (p.kernel_width / p.length_scale)) *
@@ -100,7 +104,7 @@ INLINED VALUE find_weight(VALUE raw, const ViewLanes view, const WidthLanes widt
     }
     return column_weight(raw, widths.h, p) * (widths.sigma_true / widths.sigma_weighed);
   }
-  if (p.footprint_sigma > 0.0f) {
+  if (p.footprint_sigma > 0.0f || p.lens_sigma > 0.0f) {
     const VALUE h = widths.sigma_weighed / (p.kernel_width * view.scale);
     return weight_of_widened(column_weight(raw, h, p), widths.sigma_true / widths.sigma_weighed, p);
   }

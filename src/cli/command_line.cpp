@@ -232,6 +232,10 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
                           "frames per second"))
       ->check(CLI::Range(64, 8192))
       ->type_name("SIZE");
+  sub->add_flag(
+      "--test-frame", options->test_frame,
+      wrapped("Draw, instead of the film, one picture that shows whether a dome shows all "
+              "of its fisheye, upright and with what is in front in front"));
   sub->add_option("--audio", options->audio, wrapped("Lay this file's sound under the film"))
       ->type_name("FILE");
   sub->add_flag("--join", options->join,

@@ -89,6 +89,7 @@ struct MovieOptions : DrawOptions {
   std::string dive, follow;                     // densest, or halo=N
   std::optional<std::string> audio;
   std::optional<int> dome;  // its diameter in pixels
+  bool test_frame = false;  // of the dome, in place of the film
   bool join = false;
 };
 int run_movie(const MovieOptions& options, Console& console);

@@ -160,10 +160,8 @@ class Evolution {
         write_galaxy_snapshot(snapshots_->at(frame), *turned, time_of(frame));
       }
       if (drawer_) {
-        const FilmDrawer::Drawings drawings = {
-            {scene_->scene(), [this, &turned] { return scene_->snapshot_at(turned); }}};
-        drawer_->draw(frame, scene_->scene(), drawings, scene_->other_scenes(),
-                      pictures_->at(frame), [this] { inputs_.check(); });
+        drawer_->draw(frame, scene_->scene(), *scene_->snapshot_at(turned), {},
+                      scene_->other_scenes(), pictures_->at(frame), [this] { inputs_.check(); });
       }
     }
     if (drawer_) drawer_->finish();

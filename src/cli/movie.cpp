@@ -9,12 +9,15 @@
 #include "cli/commands.h"
 #include "cli/draw_options.h"
 #include "cli/processes.h"
+#include "common/output_files.h"
 #include "common/unfinished_file.h"
+#include "film/dome/dome_test_frame.h"
 #include "film/frames/film_scene.h"
 #include "film/movie/numbered_files.h"
 #include "ranks/exchange.h"
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"
+#include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
 
 namespace splotchcl::cli {
@@ -137,6 +140,27 @@ FilmTarget target_of(const MovieOptions& options) {
   return {options.follow, false};
 }
 
+// Only what the scene says of its first picture counts: no particles are drawn.
+int draw_test_frame(const MovieOptions& options, Console& console) {
+  check_image_path(*options.output);
+  const FilmScene film(options.scene, film_settings(options), nullptr, target_of(options));
+  check_outputs({{*options.output, "--output"}},
+                [&] { return film_files_read(options.scene, film.scene(), film.path()); });
+  const Scene scene = film.scene_at(0);
+  if (scene.camera->projection != Projection::fisheye) {
+    throw UsageError(
+        "--test-frame: found a scene that is no dome's, expected --dome SIZE, or "
+        "camera.projection = \"fisheye\"");
+  }
+  const auto [width, height] = std::pair(scene.image.width, scene.image.height);
+  check_image_size(*options.output, width, height);
+  write_image(*options.output, draw_dome_test_frame(*scene.camera, width, height),
+              image_file_options(scene));
+  console.done(fmt::format("{}: the test frame of a dome, {}x{} pixels", options.output->string(),
+                           width, height));
+  return 0;
+}
+
 FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Communicator>& ranks) {
   FilmOptions film;
   film.ranks = ranks;
@@ -202,6 +226,10 @@ int run_movie(const MovieOptions& options, Console& console) {
     throw UsageError(
         "movie: found no --output, expected a film such as film.mp4, or numbered images such as "
         "frame_%04d.png; see splotchcl movie --help");
+  }
+  if (options.test_frame) {
+    if (!options.output) throw UsageError("--test-frame: found no --output, expected a picture");
+    return draw_test_frame(options, console);
   }
   const std::shared_ptr<Communicator> ranks = join_processes(console);
   const bool writes = writes_files(ranks);

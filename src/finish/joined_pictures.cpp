@@ -30,6 +30,20 @@ void fade_to_color(Image& image, const FinishSettings& finish, double gamma) {
   }
 }
 
+Image squeezed(const Image& image, int columns, int rows) {
+  Image result(image.width / columns, image.height / rows);
+  const float part = 1.0F / static_cast<float>(columns * rows);
+  for (int y = 0; y < result.height * rows; ++y) {
+    for (int x = 0; x < result.width * columns; ++x) {
+      const float* const from = image.at(x, y);
+      float* const to = result.at(x / columns, y / rows);
+      for (std::size_t c = 0; c < 4; ++c)
+        to[c] += part * from[c];
+    }
+  }
+  return result;
+}
+
 namespace {
 
 bool is_same_run(const SequenceSettings& a, const SequenceSettings& b) {

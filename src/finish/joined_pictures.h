@@ -21,6 +21,9 @@ void check_cross_fade(const Scene& scene);
 // cross-fade.
 std::optional<Scene> cross_fade_scene(const Scene& scene);
 
+// Each pixel the mean of so many columns and rows, which divide the picture, of light and alpha.
+Image squeezed(const Image& image, int columns, int rows);
+
 // Both eyes' pictures, of the same size, in one for glasses of red (left) and cyan (right), as
 // splotchcl/stereo.h has it. The matrices are about what a display emits: light is taken as the
 // display shows it, the display value v = L^(1/gamma) to the power 2.2 and from 0 to 1, and what

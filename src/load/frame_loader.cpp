@@ -210,6 +210,8 @@ Frame FrameLoader::frame_of(const Camera& camera) const {
   frame.near_limit = camera.near_limit;
   frame.far_limit = camera.far_limit;
   frame.through_clouds = camera.through_clouds;
+  frame.fade = camera.fade;
+  frame.lens = {camera.aperture, camera.focus.value_or(frame.camera.look_at_distance)};
   frame.background = scene_.image.background;
   frame.kernel = scene_.kernel;
   frame.sort = scene_.sort;

@@ -31,6 +31,22 @@ Image cut_out(const Image& whole, const Rectangle& part) {
   return image;
 }
 
+void scale(float factor, Image& image) {
+  for (float& value : image.pixels)
+    value *= factor;
+}
+
+void add(std::vector<Image> images, std::vector<Image>& sums) {
+  if (sums.empty()) {
+    sums = std::move(images);
+    return;
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    for (std::size_t k = 0; k < sums[i].pixels.size(); ++k)
+      sums[i].pixels[k] += images[i].pixels[k];
+  }
+}
+
 bool is_anaglyph(const Scene& scene) {
   return scene.stereo && is_anaglyph(scene.stereo->layout);
 }
@@ -39,9 +55,11 @@ bool is_anaglyph(const Scene& scene) {
 // all of them have shown how much light there is, where that is asked for.
 class Views {
  public:
-  Views(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot, PictureLight light)
+  Views(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot, PictureLight light,
+        const std::vector<Moment>& moments)
       : scene_(scene),
         frame_(frame),
+        moments_(moments),
         is_shown_(light != PictureLight::drawn),
         keeps_light_(light != PictureLight::shown),
         places_(view_places(scene)) {
@@ -55,7 +73,8 @@ class Views {
   DrawnPictures draw(const DrawFrame& draw_alike, const KeepsPromise& keeps_promise) const {
     DrawnPictures drawn;
     drawn.finish = scene_.finish;
-    std::vector<Image> images = draw_first(draw_alike);
+    std::vector<Image> images;
+    if (draws_all_first()) images = draw_all(draw_alike);
     find_tone(images, drawn);
     const double gain = is_shown_ ? display_gain(drawn.finish, scene_.image.gamma) : 1;
     const DrawFrame draw = with_errors_counted(draw_alike, gain);
@@ -68,15 +87,17 @@ class Views {
            Image(),
            Image(),
            {frame_.crop.x, frame_.crop.y, frame_.crop.width, frame_.crop.height}});
+    for (std::size_t i = 0; keeps_light_ && i < places_.size(); ++i)
+      put(in_crop(images[i]), places_[i], sizes, &Picture::light, drawn.pictures);
+    if (draws_again && !moments_.empty()) images = draw_all(draw);
     std::vector<Picture> of_right_eye;
     if (is_anaglyph(scene_)) of_right_eye = drawn.pictures;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const bool is_over = is_anaglyph(scene_) && places_[i].eye == Eye::right;
       std::vector<Picture>& pictures = is_over ? of_right_eye : drawn.pictures;
-      if (keeps_light_) put(in_crop(images[i]), places_[i], sizes, &Picture::light, pictures);
       if (!is_shown_) continue;
-      const bool is_drawn = !images.empty() && !draws_again;
-      Image image = is_drawn ? std::move(images[i]) : draw_view(places_[i], draw);
+      const bool is_drawn = !images.empty() && (!draws_again || !moments_.empty());
+      Image image = is_drawn ? std::move(images[i]) : draw_view(frame_, places_[i], draw);
       add_bloom(image, scene_.finish.bloom);
       image = in_crop(std::move(image));
       finishes_[i].apply(image, drawn.finish, draw);
@@ -95,12 +116,29 @@ class Views {
     return has_open_tone(scene_.finish) || (is_shown_ && scene_.finish.bloom > 0);
   }
 
-  // All views, where they are kept as drawn or decide the tone together.
-  std::vector<Image> draw_first(const DrawFrame& draw) const {
+  // Where they are kept as drawn, decide the tone together, or share the moments that are loaded.
+  bool draws_all_first() const {
+    return keeps_light_ || has_open_tone(scene_.finish) || !moments_.empty();
+  }
+
+  std::vector<Image> draw_all(const DrawFrame& draw) const {
+    if (moments_.empty()) return draw_places(frame_, draw);
+    std::vector<Image> mean;
+    for (const Moment& moment : moments_) {
+      std::vector<std::string> ignored;  // told of the scene itself
+      Frame frame = load_frame(moment.scene, *moment.snapshot(), ignored);
+      frame.crop = frame_.crop;
+      add(draw_places(frame, draw), mean);
+    }
+    for (Image& image : mean)
+      scale(1 / static_cast<float>(moments_.size()), image);
+    return mean;
+  }
+
+  std::vector<Image> draw_places(const Frame& frame, const DrawFrame& draw) const {
     std::vector<Image> images;
-    if (!keeps_light_ && !has_open_tone(scene_.finish)) return images;
     for (const ViewPlace& place : places_)
-      images.push_back(draw_view(place, draw));
+      images.push_back(draw_view(frame, place, draw));
     return images;
   }
 
@@ -113,8 +151,8 @@ class Views {
     drawn.is_black = !with_tone_of(scene_.finish, light);
   }
 
-  Image draw_view(const ViewPlace& place, const DrawFrame& draw) const {
-    Frame view = frame_of_view(scene_, frame_, place);
+  Image draw_view(const Frame& frame, const ViewPlace& place, const DrawFrame& draw) const {
+    Frame view = frame_of_view(scene_, frame, place);
     if (needs_whole()) view.crop = {0, 0, view.width, view.height};
     return draw(view);
   }
@@ -125,8 +163,10 @@ class Views {
   }
 
   // A view that is all of its picture becomes it.
-  static void put(Image image, const ViewPlace& place, const std::vector<PictureSize>& sizes,
-                  Image Picture::*part, std::vector<Picture>& pictures) {
+  void put(Image image, const ViewPlace& place, const std::vector<PictureSize>& sizes,
+           Image Picture::*part, std::vector<Picture>& pictures) const {
+    const auto [columns, rows] = squeezing_of(scene_);
+    if (columns * rows > 1) image = squeezed(image, columns, rows);
     std::size_t i = 0;
     while (pictures[i].suffix != place.suffix)
       ++i;
@@ -141,6 +181,7 @@ class Views {
 
   const Scene& scene_;
   const Frame& frame_;
+  const std::vector<Moment>& moments_;  // none without motion blur
   bool is_shown_, keeps_light_;
   std::vector<ViewPlace> places_;
   std::vector<PictureFinish> finishes_;
@@ -159,7 +200,7 @@ void change_both(Picture& picture, const Change& change) {
 DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                             const DrawFrame& draw, std::vector<std::string>& notes,
                             OtherScenes& other_scenes, PictureLight light,
-                            const KeepsPromise& keeps_promise) {
+                            const KeepsPromise& keeps_promise, const std::vector<Moment>& moments) {
   // An anaglyph is what a display shows through glasses, and nothing else.
   if (is_anaglyph(scene)) light = PictureLight::shown;
   const std::optional<Scene> other = cross_fade_scene(scene);
@@ -167,14 +208,15 @@ DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const Snapsh
   DrawnPictures drawn;
   drawn.finish = scene.finish;
   if (other && amount == 1) {
-    drawn.pictures = other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes);
+    drawn.pictures =
+        other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes, moments);
   } else {
-    drawn = Views(scene, frame, snapshot, light).draw(draw, keeps_promise);
+    drawn = Views(scene, frame, snapshot, light, moments).draw(draw, keeps_promise);
   }
   std::vector<Picture>& pictures = drawn.pictures;
   if (other && amount < 1) {
     const std::vector<Picture> others =
-        other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes);
+        other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes, moments);
     for (std::size_t i = 0; i < pictures.size(); ++i) {
       const double part_of_other = amount;  // which a lambda may take
       change_both(pictures[i],

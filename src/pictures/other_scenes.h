@@ -23,10 +23,12 @@ class OtherScenes {
   // none has been drawn.
   bool lacks_tone(const Scene& scene) const;
 
-  // The other scene's pictures. `other` is cross_fade_scene() of a frame.
+  // The other scene's pictures. `other` is cross_fade_scene() of a frame, `moments` are those of
+  // the frame.
   std::vector<Picture> draw(const std::string& file, Scene other, const Rectangle& crop,
                             const DrawFrame& draw, PictureLight light,
-                            const KeepsPromise& keeps_promise, std::vector<std::string>& notes);
+                            const KeepsPromise& keeps_promise, std::vector<std::string>& notes,
+                            const std::vector<Moment>& moments = {});
 
  private:
   struct OtherScene {
@@ -46,10 +48,11 @@ struct DrawnPictures {
   bool is_black = false;  // nothing could be found, for lack of light
 };
 
-// draw_pictures() for the frames of a film.
+// draw_pictures() for the frames of a film: of the moments, where there are some, the mean light.
 DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                             const DrawFrame& draw, std::vector<std::string>& notes,
                             OtherScenes& other_scenes, PictureLight light = PictureLight::shown,
-                            const KeepsPromise& keeps_promise = {});
+                            const KeepsPromise& keeps_promise = {},
+                            const std::vector<Moment>& moments = {});
 
 }  // namespace splotchcl

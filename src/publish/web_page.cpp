@@ -143,6 +143,11 @@ void check_page(const Frame& frame) {
         "publish: found a projection of wide angles, expected camera.projection perspective or "
         "orthographic");
   }
+  if (frame.lens.aperture > 0 || frame.fade.is_set()) {
+    throw UsageError(
+        "publish: found a lens, or light that fades with depth, expected neither: pages have none "
+        "(camera.aperture, camera.near_fade and camera.far_fade)");
+  }
   if (find_light_structure(frame).light == LightPlan::ordered) {
     throw UsageError(
         "publish: found matter whose order along the view counts, expected light that adds up: no "

@@ -138,14 +138,40 @@ void put_on_face(Splat& splat, const Projected& place, const Frame& frame) {
                    ellipse.squared_width, ellipse.footprint, ellipse.secant2};
 }
 
-// kernel.min_radius takes light from columns by their widths' ratio, kernel.footprint by that of
-// their areas, which keeps light.
+// sigma^2 of the circle of confusion of a lens: a Gaussian of the disc's second moment.
+double squared_blur(double depth, const Frame& frame) {
+  const Lens& lens = frame.lens;
+  if (lens.aperture == 0) return 0;
+  const double at_focus = lens.aperture * (depth - lens.focus) / depth;
+  const double diameter = at_focus * (frame.camera.focal_pixels / lens.focus);
+  const double variance = diameter * diameter / 16;
+  return 2 * variance;
+}
+
+// Smoothly from 0 to 1.
+double rising(double part) {
+  const double u = std::clamp(part, 0.0, 1.0);
+  return u * u * (3 - 2 * u);
+}
+
+double part_after_fade(double depth, const Frame& frame) {
+  const auto [near_length, far_length] = frame.fade;
+  double part = 1;
+  if (near_length > 0) part *= rising((depth - frame.near_limit.value_or(0)) / near_length);
+  if (far_length > 0) part *= rising((frame.far_limit.value() - depth) / far_length);
+  return part;
+}
+
+// kernel.min_radius takes light from columns by their widths' ratio, kernel.footprint and lenses by
+// that of their areas, which keeps light.
 struct Widened {
   double sigma = 0, column = 1;
 };
-Widened widened_splat(double sigma, const KernelSettings& kernel) {
+Widened widened_splat(double sigma, double depth, const Frame& frame) {
+  const KernelSettings& kernel = frame.kernel;
   const double least = std::hypot(sigma, kernel.width * kernel.min_radius_pixels);
-  const double spread2 = 2 * kernel.footprint_pixels * kernel.footprint_pixels;
+  const double spread2 =
+      2 * kernel.footprint_pixels * kernel.footprint_pixels + squared_blur(depth, frame);
   const double widened2 = least * least + spread2;
   return {std::sqrt(widened2), (sigma / least) * (least * least / widened2)};
 }
@@ -153,7 +179,7 @@ Widened widened_splat(double sigma, const KernelSettings& kernel) {
 Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnComponent& component,
                const Frame& frame) {
   const double h_pixels = h * place.pixels_per_length;
-  const Widened widened = widened_splat(frame.kernel.width * h_pixels, frame.kernel);
+  const Widened widened = widened_splat(frame.kernel.width * h_pixels, place.depth, frame);
 
   Splat splat;
   splat.x = place.x;
@@ -168,7 +194,8 @@ Splat splat_of(const Particle& p, const Projected& place, double h, const DrawnC
   if (frame.projection == Projection::cube) put_on_face(splat, place, frame);
   const double w = column_through_center(component.weight, static_cast<double>(p.weight), h,
                                          frame.kernel.width * h);
-  splat.weight = w / component.reference_column * widened.column;
+  splat.weight =
+      w / component.reference_column * widened.column * part_after_fade(place.depth, frame);
   // An absent intensity is 1 without being scaled.
   if (!component.particles.intensity.is_absent()) {
     splat.weight *= normalized(static_cast<double>(p.intensity), component.intensity);
@@ -186,6 +213,11 @@ double ray_part(double distance_in_sigma) {
   return 1 - u * u * (3 - 2 * u);
 }
 
+double depth_from(const Vec3& from, Projection projection) {
+  if (!is_wide_angle(projection)) return from.a[2];
+  return std::hypot(from.a[0], from.a[1], from.a[2]);
+}
+
 // The same as a splat where the projection shows it as one.
 Splat splat_around(const Particle& p, const Vec3& from, double h, const DrawnComponent& component,
                    const Frame& frame) {
@@ -198,6 +230,7 @@ Splat splat_around(const Particle& p, const Vec3& from, double h, const DrawnCom
                  component.reference_column;
   if (!component.particles.intensity.is_absent())
     splat.weight *= normalized(static_cast<double>(p.intensity), component.intensity);
+  splat.weight *= part_after_fade(depth_from(from, frame.projection), frame);
   color_splat(splat, p, component);
   const Vec3 seen = seen_by_eye(from, frame.camera, frame.projection);
   double distance2 = 0;
@@ -209,10 +242,10 @@ Splat splat_around(const Particle& p, const Vec3& from, double h, const DrawnCom
   // On a face of a cube splats are what rays find, too.
   splat.ray_part = frame.projection == Projection::cube ? 1 : ray_part(std::sqrt(distance2));
   // What widens splats takes away from their columns.
-  splat.splat_part = place
-                         ? (1 - splat.ray_part) *
-                               widened_splat(sigma * place->pixels_per_length, frame.kernel).column
-                         : 0;
+  splat.splat_part =
+      place ? (1 - splat.ray_part) *
+                  widened_splat(sigma * place->pixels_per_length, place->depth, frame).column
+            : 0;
   return splat;
 }
 

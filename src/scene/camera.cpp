@@ -48,6 +48,18 @@ void check_limits(const Camera& camera) {
   }
 }
 
+void check_fade(const Camera& camera) {
+  if (camera.fade.far_length == 0 || camera.far_limit) return;
+  throw UsageError("camera.far_fade: found " + text(camera.fade.far_length) +
+                   " without a far limit, expected camera.far as well, where all light has faded");
+}
+
+void check_lens(const Camera& camera) {
+  if (camera.aperture == 0 || camera.projection == Projection::perspective) return;
+  throw UsageError("camera.aperture: found " + text(camera.aperture) +
+                   " in another than the perspective projection, expected 0 there: all is sharp");
+}
+
 double largest_field_of_view(Projection projection) {
   return projection == Projection::fisheye || projection == Projection::equirectangular ? 360 : 180;
 }
@@ -173,6 +185,8 @@ CameraFrame make_camera_frame(const Camera& camera, int width, int height) {
   check_finite(camera.look_at, "camera.look_at");
   check_finite(camera.sky, "camera.sky");
   check_limits(camera);
+  check_fade(camera);
+  check_lens(camera);
   check_width(camera);
   check_dome(camera);
   check_field_of_view(camera);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -79,15 +80,45 @@ inline double footprint_sigma(const KernelSettings& kernel) {
   return std::sqrt(2.0) * kernel.footprint_pixels;
 }
 
-// What kernel.min_radius and kernel.footprint make of a cloud of a width in pixels.
+// The circle of confusion as a width, by how much the scale differs from that of what is in focus:
+// a disc of diameter c has a variance of c^2 / 16 along each axis, and sigma^2 is twice as much.
+inline double sigma_per_scale(const Lens& lens) {
+  return lens.aperture / std::sqrt(8.0);
+}
+inline double scale_in_focus(const Frame& frame) {
+  return frame.lens.aperture > 0 ? frame.camera.focal_pixels / frame.lens.focus : 0;
+}
+inline double lens_sigma(const Frame& frame, double pixels_per_length) {
+  return sigma_per_scale(frame.lens) * std::abs(pixels_per_length - scale_in_focus(frame));
+}
+
+// What kernel.min_radius, kernel.footprint and a lens make of a cloud of a width in pixels.
 struct DrawnWidth {
   double sigma = 0;   // pixels
   double column = 1;  // its central column is multiplied by this
 };
-inline DrawnWidth drawn_width(double sigma, const KernelSettings& kernel) {
+inline DrawnWidth drawn_width(double sigma, const KernelSettings& kernel, double of_lens = 0) {
   const double least = std::hypot(sigma, kernel.width * kernel.min_radius_pixels);
-  const double drawn = std::hypot(least, footprint_sigma(kernel));
+  const double drawn = std::hypot(least, std::hypot(footprint_sigma(kernel), of_lens));
   return {drawn, sigma / drawn * (least / drawn)};
+}
+
+inline double part_per_length(double length) {
+  return length > 0 ? 1 / length : 0;
+}
+// The part of its light that a particle at a depth keeps (Camera, DepthFade).
+inline double part_after_fade(const Frame& frame, double depth) {
+  const auto rising = [](double part) {
+    const double u = std::min(std::max(part, 0.0), 1.0);
+    return u * u * (3 - 2 * u);
+  };
+  const DepthFade& fade = frame.fade;
+  double part = 1;
+  if (fade.near_length > 0)
+    part *= rising((depth - frame.near_limit.value_or(0)) / fade.near_length);
+  if (fade.far_length > 0 && frame.far_limit)
+    part *= rising((*frame.far_limit - depth) / fade.far_length);
+  return part;
 }
 
 // A power of two near 1 / the look-at distance: lengths times it keep sigma^2 inside single

@@ -58,9 +58,25 @@ void check_camera(const Scene& scene, const Origins& origins) {
     refuse(origins.at("camera.near"), "camera.near", write_number(*camera.near_limit),
            "a number >= 0 with any projection but the orthographic one");
   }
+  if (camera.aperture > 0 && scene.kernel.min_radius_pixels > 0) {
+    refuse(origins.at("camera.aperture"), "camera.aperture",
+           write_number(camera.aperture) + " beside kernel.min_radius",
+           "only one of the two: the first keeps light, the second adds to it");
+  }
 }
 
 void check_two_eyes(const Scene& scene, const Origins& origins) {
+  const auto [width, height] = std::pair(scene.image.width, scene.image.height);
+  const StereoLayout layout = scene.stereo->layout;
+  if ((layout == StereoLayout::side_by_side_half && width % 2 != 0) ||
+      (layout == StereoLayout::top_bottom_half && height % 2 != 0)) {
+    refuse(origins.at("stereo.layout"), "stereo.layout",
+           fmt::format(
+               "{} with pictures of {} x {}",
+               layout == StereoLayout::top_bottom_half ? "top_bottom_half" : "side_by_side_half",
+               width, height),
+           "an even number of pixels where eyes are squeezed to half");
+  }
   const Projection projection = scene.camera ? scene.camera->projection : Projection::perspective;
   check_at(origins, [&] { check_stereo(*scene.stereo, projection); });
 }

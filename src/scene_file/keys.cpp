@@ -36,6 +36,8 @@ Keys stereo_keys() {
           choice<StereoLayout>({{"files", StereoLayout::files},
                                 {"side_by_side", StereoLayout::side_by_side},
                                 {"top_bottom", StereoLayout::top_bottom},
+                                {"side_by_side_half", StereoLayout::side_by_side_half},
+                                {"top_bottom_half", StereoLayout::top_bottom_half},
                                 {"anaglyph", StereoLayout::anaglyph},
                                 {"anaglyph_half_color", StereoLayout::anaglyph_half_color},
                                 {"anaglyph_gray", StereoLayout::anaglyph_gray}}),
@@ -212,6 +214,21 @@ Keys camera_keys() {
            "projections.md. `false`: they are splats like others, and left out within 0.1 h."})),
       key("camera.far", number(), &Camera::far_limit,
           {"Particles farther than this are left out.", "length", "no limit"}),
+      written_if_set(key<Camera, double>(
+          "camera.near_fade", number(at_least(0)),
+          [](const Camera& camera) { return camera.fade.near_length; },
+          [](Camera& camera, double value) { camera.fade.near_length = value; },
+          {"Behind `near`, or the camera, light rises smoothly over this length.", "length"})),
+      written_if_set(key<Camera, double>(
+          "camera.far_fade", number(at_least(0)),
+          [](const Camera& camera) { return camera.fade.far_length; },
+          [](Camera& camera, double value) { camera.fade.far_length = value; },
+          {"Before `far` it falls over this length.", "length"})),
+      written_if_set(key(
+          "camera.aperture", number(at_least(0)), &Camera::aperture,
+          {"Diameter of a lens, which blurs what is out of focus. Perspective only.", "length"})),
+      written_if_set(key("camera.focus", number(more_than(0)), &Camera::focus,
+                         {"The depth that is sharp.", "length", "that of `look_at`"})),
   };
 }
 

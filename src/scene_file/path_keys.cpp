@@ -292,7 +292,7 @@ Keys followed_keys() {
             f.halo.reset();
             f.sphere_center = value;
           },
-          {"The camera follows what is innermost in this sphere.", "length", "none"}),
+          {"The camera follows what is in this sphere.", "length", "none"}),
       follow_key<double>(
           "sphere.radius", number(more_than(0)), [](const Follow& f) { return f.sphere_radius; },
           [](Follow& f, double value) {
@@ -394,6 +394,10 @@ Keys path_keys() {
                  {"What moves between keyframes: the look-at point, or the view's direction."}),
              key("path.max_turn_rate", number(more_than(0)), &PathSettings::max_turn_rate,
                  {"The view turns no faster: it looks ahead.", "degrees/s", "no limit"}),
+             written_if_set(
+                 key("path.simplify", number(more_than(0)), &PathSettings::simplified_within,
+                     {"Leaves out keyframes without which the film is off by less; see movies.md.",
+                      "", "all stay"})),
          });
   return keys;
 }

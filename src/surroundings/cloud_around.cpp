@@ -118,10 +118,13 @@ CloudAround cloud_around(const DrawnComponent& component, const Frame& frame, st
   cloud.center = seen_by_eye(place, frame.camera, frame.projection) / sigma;
   // On a face of a cube splats are what rays find, too.
   cloud.ray = frame.projection == Projection::cube ? 1 : ray_part(mag(cloud.center));
+  const bool is_flat = !is_wide_angle(frame.projection);
+  weight *= part_after_fade(frame, is_flat ? place.a[2] : mag(place));
   set_amplitudes(component, i, weight, cloud);
   if (cloud.ray == 1) return cloud;
   if (const auto projected = project_point(place, frame.camera, frame.projection)) {
-    const DrawnWidth drawn = drawn_width(sigma * projected->pixels_per_length, frame.kernel);
+    const DrawnWidth drawn = drawn_width(sigma * projected->pixels_per_length, frame.kernel,
+                                         lens_sigma(frame, projected->pixels_per_length));
     cloud.splat = (1 - cloud.ray) * drawn.column;
     set_splats(*projected, drawn.sigma, frame, cloud);
   }

@@ -89,10 +89,19 @@ bool NodeWeigher::is_near(const Vec3& from, double reach, double widest) const {
 bool NodeWeigher::is_behind(const Vec3& from, double reach) const {
   return frame_.projection == Projection::perspective && from.a[2] + reach < 0;
 }
-// All members have to be within limits, or none.
+// All members have to be within limits, or none, and where light fades with depth it is each
+// member's own.
 bool NodeWeigher::is_at_limit(double depth, double reach) const {
-  if (frame_.near_limit && std::abs(depth - *frame_.near_limit) <= 1.01 * reach) return true;
-  return frame_.far_limit && std::abs(depth - *frame_.far_limit) <= 1.01 * reach;
+  const double within = 1.01 * reach;
+  const double nearest = frame_.near_limit.value_or(0);
+  const auto [near_length, far_length] = frame_.fade;
+  if (near_length > 0 && depth + within > nearest && depth - within < nearest + near_length)
+    return true;
+  if (far_length > 0 && depth - within < *frame_.far_limit &&
+      depth + within > *frame_.far_limit - far_length)
+    return true;
+  if (frame_.near_limit && std::abs(depth - *frame_.near_limit) <= within) return true;
+  return frame_.far_limit && std::abs(depth - *frame_.far_limit) <= within;
 }
 bool NodeWeigher::is_beyond_limits(double depth) const {
   return (frame_.near_limit && depth < *frame_.near_limit) ||

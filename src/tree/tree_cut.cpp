@@ -273,7 +273,8 @@ bool is_served(const Frame& frame, const DrawnComponent& component) {
          component.absorption.kind != Absorption::Kind::gray && !has_own_absorption &&
          component.particles.color_vector.is_absent() && frame.sort.by == SortOrder::By::depth &&
          !frame.kernel.cut && frame.kernel.sampling == Sampling::mean &&
-         frame.kernel.footprint_pixels > 0 && frame.projection != Projection::cube && !frame.spread;
+         frame.kernel.footprint_pixels > 0 && frame.projection != Projection::cube &&
+         !frame.spread && frame.lens.aperture == 0;
 }
 
 bool has_served_component(const Frame& frame) {

@@ -46,9 +46,11 @@ ViewPlace seen_by(Eye eye, ViewPlace place, const Scene& scene) {
       place.suffix = (second ? "_right" : "_left") + place.suffix;
       break;
     case StereoLayout::side_by_side:
+    case StereoLayout::side_by_side_half:
       if (second) place.column += is_sheet(scene) ? sheet_columns : 1;
       break;
     case StereoLayout::top_bottom:
+    case StereoLayout::top_bottom_half:
       if (second) place.row += is_sheet(scene) ? sheet_rows : 1;
       break;
     case StereoLayout::anaglyph:
@@ -74,14 +76,27 @@ std::vector<ViewPlace> view_places(const Scene& scene) {
 
 std::vector<PictureSize> picture_sizes(const Scene& scene, int view_width, int view_height) {
   std::vector<PictureSize> sizes;
+  const Squeezing squeezing = squeezing_of(scene);
   for (const ViewPlace& place : view_places(scene)) {
     auto size = std::find_if(sizes.begin(), sizes.end(),
                              [&](const PictureSize& s) { return s.suffix == place.suffix; });
     if (size == sizes.end()) size = sizes.insert(sizes.end(), {place.suffix, 0, 0});
-    size->width = std::max(size->width, (place.column + 1) * view_width);
-    size->height = std::max(size->height, (place.row + 1) * view_height);
+    size->width = std::max(size->width, (place.column + 1) * view_width / squeezing.columns);
+    size->height = std::max(size->height, (place.row + 1) * view_height / squeezing.rows);
   }
   return sizes;
+}
+
+Squeezing squeezing_of(const Scene& scene) {
+  if (!scene.stereo) return {1, 1};
+  switch (scene.stereo->layout) {
+    case StereoLayout::side_by_side_half:
+      return {2, 1};
+    case StereoLayout::top_bottom_half:
+      return {1, 2};
+    default:
+      return {1, 1};
+  }
 }
 
 std::vector<FrameView> views_of(const Scene& scene, const Frame& frame) {

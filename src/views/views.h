@@ -20,6 +20,12 @@ struct ViewPlace {
 // In the order in which they are drawn; views of one picture follow each other.
 std::vector<ViewPlace> view_places(const Scene& scene);
 
+// So many columns and rows of a view become one of its picture.
+struct Squeezing {
+  int columns = 1, rows = 1;
+};
+Squeezing squeezing_of(const Scene& scene);
+
 // The frame of one view.
 Frame frame_of_view(const Scene& scene, const Frame& frame, const ViewPlace& place);
 

@@ -243,6 +243,15 @@ TEST_P(BlocksOutOfView, ChangeNoBitOfSplatsThatAreNeverNarrow) {
   expect_same_bits(frame);
 }
 
+TEST_P(BlocksOutOfView, ChangeNoBitOfWhatALensBlurs) {
+  Frame frame = frame_for(clusters());
+  frame.lens = {0.5, 60};
+  frame.fade.near_length = 30;
+  expect_same_bits(frame);
+  frame.lens = {0.05, 10};
+  expect_same_bits(frame);
+}
+
 TEST_P(BlocksOutOfView, ChangeNoBitOfCloudsAroundTheCamera) {
   Frame frame = frame_for(clusters());
   frame.through_clouds = true;

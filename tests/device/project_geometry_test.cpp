@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device/stages.h"
+#include "scene/particle_rules.h"
 
 namespace splotchcl::test {
 namespace {
@@ -100,6 +101,12 @@ double width_bound(const Expected& e) {
   return unit * (6 * e.slant + 6 + 5 + 10);
 }
 
+// What a lens adds errs by the roundings of a difference of scales: those of the scale and of two
+// products, and no more in a sum of squares.
+double lens_bound(const Expected& e, const Frame& frame) {
+  return unit * (6 * e.slant + 6 + 4) * sigma_per_scale(frame.lens) * e.scale;
+}
+
 // Widths of splats as they are stored: widened for those that take the centre's value.
 double stored_sigma(double sigma, const FramePlan& plan) {
   const bool by_mean = sigma < static_cast<double>(plan.splats.mean_sigma);
@@ -160,7 +167,8 @@ class ProjectGeometry : public StageTest, public testing::WithParamInterface<boo
       // Either form is right where the width is at the limit between them.
       const double limit = static_cast<double>(plan.splats.mean_sigma);
       if (std::abs(e.splat.sigma - limit) < 1e-3 * limit) return;
-      ASSERT_LE(std::abs(sigma - expected), (width_bound(e) + 3 * unit) * expected);
+      ASSERT_LE(std::abs(sigma - expected),
+                (width_bound(e) + 3 * unit) * expected + lens_bound(e, frame));
     });
     RecordProperty("farthest_centre", std::to_string(farthest));
     return farthest;
@@ -250,6 +258,12 @@ TEST_P(ProjectGeometry, WidthsFollowTheSmallestRadius) {
 TEST_P(ProjectGeometry, WidthsFollowTheFootprint) {
   Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 8);
   frame.kernel.footprint_pixels = 0.5;
+  expect_centers_and_widths(frame);
+}
+
+TEST_P(ProjectGeometry, WidthsFollowTheLens) {
+  Frame frame = seen({{12, -34, 56}}, 10, 45, {{0, 0, 0}}, 8);
+  frame.lens = {0.02 * frame.camera.look_at_distance, frame.camera.look_at_distance};
   expect_centers_and_widths(frame);
 }
 

@@ -26,7 +26,9 @@ inline std::string describe(const Frame& frame) {
       << frame.kernel.cut.value_or(0)
       << (frame.kernel.sampling == Sampling::mean ? ", means" : ", centres") << ", min_radius "
       << frame.kernel.min_radius_pixels << ", footprint " << frame.kernel.footprint_pixels
-      << ", eye " << frame.camera.eye_offset << ", tolerance " << frame.tolerance << ", components "
+      << ", lens " << frame.lens.aperture << " at " << frame.lens.focus << ", fades "
+      << frame.fade.near_length << " and " << frame.fade.far_length << ", eye "
+      << frame.camera.eye_offset << ", tolerance " << frame.tolerance << ", components "
       << frame.components.size();
   return out.str();
 }
@@ -61,6 +63,21 @@ inline Frame with_footprint(Frame frame, std::uint64_t seed) {
   return frame;
 }
 
+// Every fifth through a lens that blurs by some pixels, and with light that fades with depth, where
+// the camera has them.
+inline Frame with_lens(Frame frame, std::uint64_t seed) {
+  if (seed % 5 != 2) return frame;
+  const double distance = frame.camera.look_at_distance;
+  if (frame.projection == Projection::perspective && frame.kernel.min_radius_pixels == 0) {
+    const double blurred_pixels = 0.3 * static_cast<double>(seed % 31);
+    frame.lens.aperture = blurred_pixels * distance / frame.camera.focal_pixels;
+    frame.lens.focus = distance;
+  }
+  frame.fade.near_length = 0.4 * distance;
+  if (frame.far_limit) frame.fade.far_length = 0.3 * distance;
+  return frame;
+}
+
 class RandomPromise : public PictureTest {
  protected:
   // The tolerance is that of the frame, or what tolerance 0 promises.
@@ -80,7 +97,7 @@ class RandomPromise : public PictureTest {
                                     const std::vector<std::uint64_t>& seeds) {
     std::size_t lit = 0;
     for (const std::uint64_t seed : seeds) {
-      const Frame frame = with_footprint(kind.make(seed), seed);
+      const Frame frame = with_lens(with_footprint(kind.make(seed), seed), seed);
       lit += largest_value(reference::render(frame)) > 0.05;
       const bool in_groups = seed % 3 == 0;
       expect_kept(kind, frame, renderer(in_groups ? CompositeShape::groups : CompositeShape::rows),
@@ -96,7 +113,7 @@ class RandomPromise : public PictureTest {
     Renderer pairs({"", CompositeShape::rows, false});
     Renderer pairs_in_groups({"", CompositeShape::groups, false});
     for (const std::uint64_t seed : seeds) {
-      Frame frame = with_footprint(kind.make(seed), seed);
+      Frame frame = with_lens(with_footprint(kind.make(seed), seed), seed);
       frame.tolerance = 0;
       const bool in_groups = seed / 2 % 2 == 0;
       Renderer& by_pairs = in_groups ? pairs_in_groups : pairs;

@@ -110,6 +110,34 @@ TEST(Pictures, OfTheLeftEyeLieOnTop) {
   EXPECT_EQ(parts(pictures[0]), (Numbers{1, 2}));
 }
 
+TEST(Pictures, OfTwoEyesMayBeSqueezedIntoTheSizeOfOne) {
+  const auto beside = numbered(scene_with({"stereo.layout=side_by_side_half"}));
+  ASSERT_EQ(beside.size(), 1U);
+  const Image& image = beside.front().image;
+  EXPECT_EQ(image.width, width);
+  EXPECT_EQ(image.height, height);
+  EXPECT_EQ(image.at(width / 2 - 1, 3)[0], 1);
+  EXPECT_EQ(image.at(width / 2, 3)[0], 2);
+  const auto above = numbered(scene_with({"stereo.layout=top_bottom_half"}));
+  EXPECT_EQ(above.front().image.at(3, height / 2 - 1)[0], 1);
+  EXPECT_EQ(above.front().image.at(3, height / 2)[0], 2);
+}
+
+TEST(Pictures, OfSqueezedEyesHaveTheMeanOfTwoPixelsInEach) {
+  const Scene scene = scene_with({"stereo.layout=side_by_side_half"});
+  std::vector<std::string> notes;
+  const Image image =
+      draw_pictures(scene, frame_of(scene), SnapshotInfo(), rising_light(), notes).front().image;
+  EXPECT_FLOAT_EQ(image.at(0, 0)[0], 1.5F);
+  EXPECT_FLOAT_EQ(image.at(1, 0)[0], 3.5F);
+  EXPECT_FLOAT_EQ(image.at(2, 0)[0], 3);
+}
+
+TEST(Pictures, OfAnOddWidthCannotBeSqueezed) {
+  EXPECT_THROW(scene_with({"stereo.layout=side_by_side_half", "image.size=[5,4]"}), UsageError);
+  EXPECT_NO_THROW(scene_with({"stereo.layout=top_bottom_half", "image.size=[5,4]"}));
+}
+
 TEST(Pictures, OfTwoEyesMayBeOneForRedAndCyanGlasses) {
   for (const char* layout : {"anaglyph", "anaglyph_half_color", "anaglyph_gray"}) {
     const Scene scene = scene_with({std::string("stereo.layout=") + layout});

@@ -54,6 +54,11 @@ Frame random_frame(std::uint64_t seed) {
   frame.projection = camera.projection;
   frame.kernel.footprint_pixels = 0.25 + 0.5 * uniform(random);
   frame.tolerance = seed % 2 == 0 ? 1e-2 : 1e-3;
+  if (seed % 4 == 3) frame.fade.near_length = 0.9 * distance;
+  if (seed % 8 == 3) {
+    frame.far_limit = 1.3 * distance;
+    frame.fade.far_length = 0.2 * distance;
+  }
   DrawnComponent& gas = frame.components.front();
   gas.brightness = std::pow(10, 3 * uniform(random) - 1.5);
   const Absorption::Kind kinds[] = {Absorption::Kind::none, Absorption::Kind::as_emission,
@@ -263,19 +268,21 @@ TEST(TreeCut, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-TEST(TreeCut, ServesNoCutKernelNoFootprintAndNoGrayAbsorption) {
+TEST(TreeCut, ServesNoCutKernelNoFootprintNoLensAndNoGrayAbsorption) {
   const Matter matter = clumps(100, 25);
   Frame frame = frame_of(matter, 40, 30);
   EXPECT_FALSE(has_served_component(frame)) << "without a tree";
   plant(frame, tree_of(matter));
   EXPECT_TRUE(has_served_component(frame));
-  Frame cut = frame, square = frame, gray = frame;
+  Frame cut = frame, square = frame, gray = frame, blurred = frame;
+  blurred.lens = {0.1, 1};
   cut.kernel.cut = 2;
   square.kernel.footprint_pixels = 0;
   gray.components.front().absorption = {Absorption::Kind::gray, 1};
   EXPECT_FALSE(has_served_component(cut));
   EXPECT_FALSE(has_served_component(square));
   EXPECT_FALSE(has_served_component(gray));
+  EXPECT_FALSE(has_served_component(blurred));
 }
 
 }  // namespace

@@ -49,10 +49,13 @@ void ViewBounds::add_edges(const Frame& frame, const shared::ProjectParameters& 
   const double reach = 1.01 * std::max(static_cast<double>(p.reach), 10.0);
   const double least_sigma = drawn_width(0, frame.kernel).sigma + 1e-5;
   const double pixels = reach * least_sigma + 6 + 1e-3 * (frame.width + frame.height);
+  // A lens widens by a length times |f - f Z / focus| of pixels times the depth, at most by both.
+  const double of_lens = reach * sigma_per_scale(frame.lens);
+  const double beyond_focus = of_lens * scale_in_focus(frame);
   const auto edge = [&](const Vec3& across, double center_to_edge) {
     const double room = center_to_edge + pixels;
     if (is_perspective) {
-      add(f * across + room * camera.forward, f * reach, 0);
+      add(f * across + (room + beyond_focus) * camera.forward, f * reach, f * of_lens);
     } else {
       add(f * across, f * reach, room);
     }

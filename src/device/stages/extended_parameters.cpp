@@ -69,6 +69,12 @@ shared::ExtendedParameters make_extended_parameters(const StageContext& context,
   e.sums_emission = context.plan.light == LightPlan::emission;
   e.min_radius = pair_of(frame.kernel.min_radius_pixels);
   e.footprint_sigma = pair_of(footprint_sigma(frame.kernel));
+  e.lens_sigma = pair_of(sigma_per_scale(frame.lens));
+  e.scale_in_focus = pair_of(scale_in_focus(frame));
+  e.fade_begin = pair_of(frame.near_limit.value_or(0));
+  e.fade_end = pair_of(frame.far_limit.value_or(0));
+  e.inverse_near_fade = pair_of(part_per_length(frame.fade.near_length));
+  e.inverse_far_fade = pair_of(part_per_length(frame.fade.far_length));
   e.weight_scale = pair_of(weight_scale(component, length_scale(frame)));
   e.color = pairs_of(color_scaling(component));
   e.intensity = pairs_of(intensity_scaling(component));

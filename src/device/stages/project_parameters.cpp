@@ -81,6 +81,13 @@ void set_depth_limits(const Frame& frame, shared::ProjectParameters& p) {
                                 : std::numeric_limits<float>::infinity();
 }
 
+void set_fade(const Frame& frame, shared::ProjectParameters& p) {
+  p.fade_begin = static_cast<float>(frame.near_limit.value_or(0));
+  p.fade_end = static_cast<float>(frame.far_limit.value_or(0));
+  p.inverse_near_fade = static_cast<float>(part_per_length(frame.fade.near_length));
+  p.inverse_far_fade = static_cast<float>(part_per_length(frame.fade.far_length));
+}
+
 shared::DepthKeyParameters parameters_of(const DepthKeyScale& scale) {
   shared::DepthKeyParameters p{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -255,6 +262,9 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   p.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
   p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);
   p.footprint_sigma = static_cast<float>(footprint_sigma(frame.kernel));
+  p.lens_sigma = static_cast<float>(sigma_per_scale(frame.lens));
+  p.scale_in_focus = static_cast<float>(scale_in_focus(frame));
+  set_fade(frame, p);
   set_picture(context, p);
   set_plan(context.plan, p);
   set_component(frame, frame.components[component], context.plan.light_behind, p);

@@ -257,12 +257,14 @@ struct FrameDrawer::State {
   }
 
   DrawnFrame draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
-                  OtherScenes& other_scenes, std::vector<std::string> notes) {
+                  OtherScenes& other_scenes, std::vector<std::string> notes,
+                  const std::vector<Moment>& moments = {}) {
     DrawnFrame drawn;
     drawn.notes = std::move(notes);
     DrawnPictures pictures = draw_pictures(
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn); },
-        drawn.notes, other_scenes, light, [&](double gain) { return keeps_promise(gain, drawn); });
+        drawn.notes, other_scenes, light, [&](double gain) { return keeps_promise(gain, drawn); },
+        moments);
     drawn.pictures = std::move(pictures.pictures);
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
@@ -299,11 +301,11 @@ DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot) {
 }
 
 DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot,
-                             OtherScenes& other_scenes) {
+                             OtherScenes& other_scenes, const std::vector<Moment>& moments) {
   std::vector<std::string> notes;
   const Frame frame = load_frame(scene, snapshot, notes, state_->progress);
   return all_or_none(frame, [&] {
-    return state_->draw(scene, frame, snapshot.info(), other_scenes, std::move(notes));
+    return state_->draw(scene, frame, snapshot.info(), other_scenes, std::move(notes), moments);
   });
 }
 

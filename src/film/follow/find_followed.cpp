@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 #include <optional>
 
 #include "film/follow/followed_particles.h"
@@ -19,13 +20,29 @@ namespace {
 
 using namespace boost::qvm;
 
-// Angular momentum of particles of the same mass, of length 1.
+// Places, among these particles, of those that are nearest to a point.
+std::vector<std::size_t> nearest(const PointCloud& cloud, const Vec3& center, std::size_t count) {
+  std::vector<std::size_t> places(cloud.points.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::vector<double> distances;
+  for (const Vec3& point : cloud.points)
+    distances.push_back(mag(cloud.offset(center, point)));
+  const auto end = places.begin() + static_cast<std::ptrdiff_t>(count);
+  std::partial_sort(places.begin(), end, places.end(),
+                    [&](std::size_t a, std::size_t b) { return distances[a] < distances[b]; });
+  places.erase(end, places.end());
+  return places;
+}
+
+// Angular momentum of the innermost fifth, of particles of the same mass, of length 1.
 Vec3 spin_of(const FoundParticles& found, const Vec3& center) {
-  const auto count = static_cast<double>(found.velocities.size());
+  const std::size_t all = found.velocities.size();
+  const std::vector<std::size_t> inner =
+      nearest(found.cloud, center, std::max(core_count(all), all / 5));
   Vec3 mean = {{0, 0, 0}}, spin = {{0, 0, 0}};
-  for (const Vec3& velocity : found.velocities)
-    mean += velocity / count;
-  for (std::size_t i = 0; i < found.velocities.size(); ++i) {
+  for (const std::size_t i : inner)
+    mean += found.velocities[i] / static_cast<double>(inner.size());
+  for (const std::size_t i : inner) {
     spin +=
         cross(found.cloud.offset(center, found.cloud.points[i]), Vec3(found.velocities[i] - mean));
   }
@@ -43,7 +60,7 @@ struct Search {
 
 // Between snapshots particles move as the film draws them, each on a way of its own: their median
 // is looked for at so many places.
-constexpr int places_between = 4;
+constexpr int places_between = 8;
 
 void add_between(double from, double to, Interpolation interpolation,
                  std::vector<double>& indices) {
@@ -87,13 +104,19 @@ class Followers {
 
   // From where it was chosen forwards, and backwards: each time it is near to where it was.
   FollowedWay way(const Search& search) {
-    const auto middle =
+    const auto chosen =
         std::lower_bound(search.indices.begin(), search.indices.end(), search.chosen);
+    Track track = {followed_.center, {}};
+    if (chosen == search.indices.end() || *chosen != search.chosen)
+      (void)moment_at(search.chosen, track);
     std::vector<FollowedMoment> moments;
-    look_into({middle, search.indices.end()}, moments);
-    std::vector<double> earlier(search.indices.begin(), middle);
-    std::reverse(earlier.begin(), earlier.end());
-    look_into(earlier, moments);
+    Track later = track;
+    for (auto index = chosen; index != search.indices.end(); ++index) {
+      moments.push_back(moment_at(*index, later));
+      if (*index == search.chosen) track = later;
+    }
+    for (auto index = chosen; index != search.indices.begin();)
+      moments.push_back(moment_at(*--index, track));
     std::sort(moments.begin(), moments.end(),
               [](const auto& a, const auto& b) { return a.index < b.index; });
     return FollowedWay(moments, followed_.radius, kind());
@@ -118,24 +141,45 @@ class Followers {
     return source_.at(moment);
   }
 
-  void look_into(const std::vector<double>& indices, std::vector<FollowedMoment>& moments) {
-    Vec3 guess = followed_.center;
-    for (const double index : indices) {
-      moments.push_back(moment_at(index, guess));
-      guess = moments.back().center;
-    }
-  }
+  // Where it was last, and which of its particles were in its middle.
+  struct Track {
+    Vec3 center;
+    std::vector<bool> is_core;  // by number; empty: not known yet
+  };
 
-  FollowedMoment moment_at(double index, const Vec3& guess) {
+  FollowedMoment moment_at(double index, Track& track) {
     const std::shared_ptr<const Snapshot> snapshot = at(index);
     const bool turns = scene_.path.follow->up == Follow::Up::angular_momentum;
     FoundParticles found = find_particles(followed_, *snapshot, turns);
     found.cloud.box = filled_box(scene_, *snapshot);
     FollowedMoment moment;
     moment.index = index;
-    moment.center = middle_of(found.cloud, guess);
+    moment.center = core_of(found.cloud, start_of(found, track), 2 * followed_.radius);
     if (turns) moment.up = spin_of(found, moment.center);
+    track.center = moment.center;
+    track.is_core.assign(followed_count(), false);
+    for (const std::size_t i :
+         nearest(found.cloud, moment.center, core_count(found.cloud.points.size())))
+      track.is_core[found.numbers[i]] = true;
     return moment;
+  }
+
+  // What was in the middle is there still, or nearly.
+  static Vec3 start_of(const FoundParticles& found, const Track& track) {
+    if (track.is_core.empty()) return track.center;
+    PointCloud core;
+    core.box = found.cloud.box;
+    for (std::size_t i = 0; i < found.numbers.size(); ++i) {
+      if (track.is_core[found.numbers[i]]) core.points.push_back(found.cloud.points[i]);
+    }
+    return core.points.empty() ? track.center : middle_of(core, track.center);
+  }
+
+  std::size_t followed_count() const {
+    std::size_t count = 0;
+    for (const auto& [type, ids] : followed_.ids)
+      count += ids.size();
+    return count;
   }
 
   const Scene& scene_;

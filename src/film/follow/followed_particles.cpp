@@ -19,10 +19,6 @@
 namespace splotchcl {
 namespace {
 
-// Of what is followed, so that it stays together; the least that it takes to be sure of the middle.
-constexpr double inner_part = 0.2;
-constexpr std::size_t enough = 100;
-
 // Those that the scene draws of its own snapshot.
 std::set<int> types_of(const Scene& scene, const Snapshot& snapshot) {
   std::set<int> types;
@@ -103,33 +99,9 @@ ParticleSet sphere_of(const Scene& scene, const Snapshot& snapshot) {
   return sphere;
 }
 
-// A smaller and smaller sphere's, so that what else is in the sphere does not count.
-Vec3 core_of(const PointCloud& cloud, const Vec3& center, double radius) {
-  constexpr double smaller = 0.9;
-  Vec3 core = center;
-  for (double within = radius;; within *= smaller) {
-    Vec3 sum = {{0, 0, 0}};
-    std::size_t count = 0;
-    for (const Vec3& point : cloud.points) {
-      const Vec3 offset = cloud.offset(core, point);
-      if (boost::qvm::mag(offset) > within) continue;
-      sum += offset;
-      ++count;
-    }
-    if (count < std::min(enough, cloud.points.size()) || count == 0) return core;
-    core += sum / static_cast<double>(count);
-    if (within < 1e-3 * radius) return core;
-  }
-}
-
-// The inner part of the candidates.
-void keep_inner(const Candidates& all, const Snapshot& snapshot, FollowedParticles& followed) {
-  const auto count = static_cast<double>(all.cloud.points.size());
-  const double part = std::min(1.0, std::max(inner_part, static_cast<double>(enough) / count));
-  const double within = radius_of_part(all.cloud, followed.center, part);
+void keep_ids(const Candidates& all, const Snapshot& snapshot, FollowedParticles& followed) {
   std::map<int, std::vector<std::uint64_t>> ids_of_type;
   for (std::size_t i = 0; i < all.places.size(); ++i) {
-    if (boost::qvm::mag(all.cloud.offset(followed.center, all.cloud.points[i])) > within) continue;
     const int type = all.types[i];
     if (ids_of_type.count(type) == 0) ids_of_type[type] = snapshot.read_ids(type);
     followed.ids[type].push_back(ids_of_type[type].at(all.places[i]));
@@ -172,24 +144,29 @@ FollowedParticles choose_followed(const Scene& scene, const Snapshot& snapshot, 
     followed.radius = *set.sphere_radius;
     followed.center = core_of(members.cloud, *set.sphere_center, followed.radius);
   }
-  if (wants_ids) keep_inner(members, snapshot, followed);
+  if (wants_ids) keep_ids(members, snapshot, followed);
   return followed;
 }
 
 FoundParticles find_particles(const FollowedParticles& followed, const Snapshot& snapshot,
                               bool wants_velocities) {
   FoundParticles found;
+  std::size_t first = 0;  // of a type, among all
   for (const auto& [type, wanted] : followed.ids) {
+    const std::size_t first_of_type = first;
+    first += wanted.size();
     if (snapshot.info().find_type(type) == nullptr) continue;
     const std::vector<std::uint64_t> ids = snapshot.read_ids(type);
     const Column position = snapshot.read(type, "position");
     const Column velocity = wants_velocities ? snapshot.read(type, "velocity") : Column();
     const Vec3 origin = snapshot.position_origin();
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      if (!std::binary_search(wanted.begin(), wanted.end(), ids[i])) continue;
+      const auto place = std::lower_bound(wanted.begin(), wanted.end(), ids[i]);
+      if (place == wanted.end() || *place != ids[i]) continue;
       const Vec3 point = origin + vector_at(position, i);
       if (!std::isfinite(boost::qvm::mag(point))) continue;
       found.cloud.points.push_back(point);
+      found.numbers.push_back(first_of_type + static_cast<std::size_t>(place - wanted.begin()));
       if (wants_velocities) found.velocities.push_back(vector_at(velocity, i));
     }
   }

@@ -25,7 +25,8 @@ FollowedParticles choose_followed(const Scene& scene, const Snapshot& snapshot, 
 // Some of them as a snapshot has them.
 struct FoundParticles {
   PointCloud cloud;
-  std::vector<Vec3> velocities;  // as many, or none
+  std::vector<std::size_t> numbers;  // of each, among all that are followed
+  std::vector<Vec3> velocities;      // as many, or none
 };
 // Those of these ids; with velocities if they are asked for. Throws UsageError where there are
 // none.

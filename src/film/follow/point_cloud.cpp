@@ -169,6 +169,23 @@ double radius_of_part(const PointCloud& cloud, const Vec3& center, double part) 
   return all[static_cast<std::size_t>(place)];
 }
 
+std::size_t core_count(std::size_t points) {
+  constexpr std::size_t enough = 100;
+  return std::min(points, std::max(enough, points / 10));
+}
+
+Vec3 core_of(const PointCloud& cloud, const Vec3& start, double radius) {
+  constexpr double smaller = 0.9;
+  const std::size_t least = core_count(cloud.points.size());
+  Vec3 core = start;
+  for (double within = radius; within > 1e-3 * radius; within *= smaller) {
+    const Mean mean = mean_within(cloud, core, within);
+    if (mean.count < least || mean.count == 0) break;
+    core += mean.offset;
+  }
+  return core;
+}
+
 namespace {
 
 Vec3 median_offset(const PointCloud& cloud, const Vec3& from) {

@@ -26,6 +26,13 @@ Vec3 densest_point(const PointCloud& cloud);
 // none is, of the hundredth of all that is nearest.
 double dense_radius(const PointCloud& cloud, const Vec3& center);
 
+// A tenth of so many points, but a hundred at least, or all: those that tell where a cloud is.
+std::size_t core_count(std::size_t points);
+
+// Where most points are, by the means of smaller and smaller spheres, from one of this radius about
+// `start` to one that holds the core. What else there is does not count.
+Vec3 core_of(const PointCloud& cloud, const Vec3& start, double radius);
+
 // The median along each axis, to which outliers do not count: `guess` must be nearer to the points
 // than half of the box. In a periodic box the image nearest to the guess. Needs a point.
 Vec3 middle_of(const PointCloud& cloud, const Vec3& guess);

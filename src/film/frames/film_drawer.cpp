@@ -51,43 +51,6 @@ Scene FilmDrawer::with_known_tone(int frame, Scene scene) const {
 
 namespace {
 
-void add(const Image& image, Image& sum) {
-  for (std::size_t i = 0; i < sum.pixels.size(); ++i)
-    sum.pixels[i] += image.pixels[i];
-}
-
-void scale(float factor, Image& image) {
-  for (float& value : image.pixels)
-    value *= factor;
-}
-
-}  // namespace
-
-DrawnFrame FilmDrawer::draw_mean(int frame, const Drawings& drawings, OtherScenes& other_scenes) {
-  std::optional<DrawnFrame> mean;
-  for (const Drawing& drawing : drawings) {
-    const Scene scene = with_known_tone(frame, drawing.scene);
-    DrawnFrame drawn = drawer_.draw(scene, *drawing.snapshot(), other_scenes);
-    if (!mean) {
-      mean = std::move(drawn);
-      continue;
-    }
-    for (std::size_t i = 0; i < mean->pictures.size(); ++i) {
-      add(drawn.pictures[i].image, mean->pictures[i].image);
-      add(drawn.pictures[i].light, mean->pictures[i].light);
-    }
-    mean->stats.total_seconds += drawn.stats.total_seconds;
-  }
-  if (drawings.size() == 1) return std::move(*mean);
-  for (Picture& picture : mean->pictures) {
-    scale(1 / static_cast<float>(drawings.size()), picture.image);
-    scale(1 / static_cast<float>(drawings.size()), picture.light);
-  }
-  return std::move(*mean);
-}
-
-namespace {
-
 // "HH:MM:SS:FF" of whole frames in a second, as editors count them; none where a second has more
 // than two digits count, or less than one.
 std::string timecode(int frame, double frames_per_second) {
@@ -101,10 +64,11 @@ std::string timecode(int frame, double frames_per_second) {
 
 }  // namespace
 
-RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Drawings& drawings,
-                             OtherScenes& other_scenes, const std::filesystem::path& output,
+RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
+                             const std::vector<Moment>& moments, OtherScenes& other_scenes,
+                             const std::filesystem::path& output,
                              const std::function<void()>& before_writing) {
-  DrawnFrame drawn = draw_mean(frame, drawings, other_scenes);
+  DrawnFrame drawn = drawer_.draw(with_known_tone(frame, scene), snapshot, other_scenes, moments);
   before_writing();
   tell(drawn.notes);
   tell_of_bad_particles(drawn);

@@ -35,19 +35,13 @@ class FilmDrawer {
   void decide_tone(int frame, const Scene& scene, const Snapshot& snapshot,
                    OtherScenes& other_scenes);
 
-  // The scene, and what it is drawn from, opened when it is drawn.
-  struct Drawing {
-    Scene scene;
-    std::function<std::shared_ptr<const Snapshot>()> snapshot;
-  };
-  using Drawings = std::vector<Drawing>;
-
-  // The frame of this number as the scene shows it, the mean of all drawings, to
-  // picture_path(output, ...), or to nowhere where another rank writes it: an empty path. What it
-  // took. `before_writing` may throw what is wrong with what the frame was drawn from. Throws as
+  // The frame of this number as the scene shows it, to picture_path(output, ...), or to nowhere
+  // where another rank writes it: an empty path. With moments it is their mean light. What it took.
+  // `before_writing` may throw what is wrong with what the frame was drawn from. Throws as
   // FrameDrawer::draw, and what writing an earlier frame has thrown.
-  RenderStats draw(int frame, const Scene& scene, const Drawings& drawings,
-                   OtherScenes& other_scenes, const std::filesystem::path& output,
+  RenderStats draw(int frame, const Scene& scene, const Snapshot& snapshot,
+                   const std::vector<Moment>& moments, OtherScenes& other_scenes,
+                   const std::filesystem::path& output,
                    const std::function<void()>& before_writing);
   // All frames are written. Throws what writing has thrown.
   void finish();
@@ -55,7 +49,6 @@ class FilmDrawer {
   void tell(const std::vector<std::string>& notes);
 
  private:
-  DrawnFrame draw_mean(int frame, const Drawings& drawings, OtherScenes& other_scenes);
   Scene with_known_tone(int frame, Scene scene) const;
   void tell_of_bad_particles(const DrawnFrame& drawn);
 

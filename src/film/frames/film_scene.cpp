@@ -15,6 +15,7 @@
 #include "common/file_identity.h"
 #include "film/follow/find_followed.h"
 #include "film/frames/suggest_film.h"
+#include "film/path/simplify_path.h"
 #include "load/passes.h"
 #include "sequence/list_sequence.h"
 #include "snapshot/snapshot_files.h"
@@ -103,6 +104,13 @@ bool shows_the_same(const std::optional<Camera>& a, const std::optional<Camera>&
          a->field_of_view_degrees == b->field_of_view_degrees && a->projection == b->projection;
 }
 
+// Whether a setting says where the camera is, or how it looks at what is near.
+bool places_camera(const std::string& setting) {
+  const std::string key = setting.substr(0, setting.find('='));
+  return key == "camera.position" || key == "camera.look_at" || key == "camera.center" ||
+         key == "camera.through_clouds";
+}
+
 }  // namespace
 
 FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::string>& settings,
@@ -121,11 +129,16 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
   if (has_suggested_view && scene_.time.is_set() && target.name.empty()) show_whole_course(scene_);
+  if (opened.suggested && scene_.camera &&
+      std::none_of(settings.begin(), settings.end(), places_camera)) {
+    stand_amid_matter(*scene_.camera);
+  }
   // A scene file that says how long its film is says what it is, too.
   if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {
     const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);
     if (!note.empty()) notes_.push_back(note);
   }
+  scene_ = with_simple_path(std::move(scene_), notes_);
   path_.emplace(scene_, notes_, find_followed);
   path_->check(scene_);
   watch_files();

@@ -214,7 +214,8 @@ class Film {
   RenderStats draw_frame(FilmDrawer& drawer, int frame, const Scene& scene,
                          const std::filesystem::path& output) {
     try {
-      return drawer.draw(frame, scene, drawings_of(frame, scene), scene_.other_scenes(), output,
+      return drawer.draw(frame, scene, *scene_.snapshot_at(scene), moments_of(frame),
+                         scene_.other_scenes(), output,
                          [&] { agree(options_.ranks.get(), [&] { scene_.check_files(); }); });
     } catch (const Error&) {
       if (!options_.ranks) scene_.check_files();
@@ -222,15 +223,12 @@ class Film {
     }
   }
 
-  // One, or those of the time that the shutter is open.
-  FilmDrawer::Drawings drawings_of(int frame, const Scene& scene) {
-    std::vector<Scene> scenes = scene_.blurred_scenes(frame);
-    if (scenes.empty()) scenes = {scene};
-    FilmDrawer::Drawings drawings;
-    for (const Scene& drawn : scenes) {
-      drawings.push_back({as_stored(drawn), [this, drawn] { return scene_.snapshot_at(drawn); }});
-    }
-    return drawings;
+  // Those of the time that the shutter is open; none without motion blur.
+  std::vector<Moment> moments_of(int frame) {
+    std::vector<Moment> moments;
+    for (const Scene& scene : scene_.blurred_scenes(frame))
+      moments.push_back({as_stored(scene), [this, scene] { return scene_.snapshot_at(scene); }});
+    return moments;
   }
 
   // Somebody else may tidy up where they lie.

@@ -122,6 +122,17 @@ Target target_around(const std::vector<Target>& targets) {
   return around;
 }
 
+// Matter that the camera meets on its way around the target would lie over it as a veil.
+void let_matter_fade_before_target(Scene& scene) {
+  constexpr double part_of_way = 0.5;
+  Camera& camera = *scene.camera;
+  if (camera.near_limit || camera.fade.near_length > 0) return;
+  const CameraFrame shown = make_camera_frame(camera, scene.image.width, scene.image.height);
+  const double side = std::min(scene.image.width, scene.image.height) / shown.pixels_per_length;
+  const double wanted = scene.path.follow->size * find_followed(scene, {scene.time.index}).radius();
+  camera.fade.near_length = part_of_way * shown.look_at_distance * wanted / side;
+}
+
 }  // namespace
 
 void show_whole_course(Scene& scene) {
@@ -130,6 +141,17 @@ void show_whole_course(Scene& scene) {
     return target.shape == Target::Shape::box;
   });
   if (!has_box) scene.camera = suggest_camera(target_around(targets));
+}
+
+void stand_amid_matter(Camera& camera) {
+  // What a picture of 45 degrees shows from afar is half as wide as the way to it, or wider.
+  constexpr double part_of_way = 0.2;
+  if (!is_wide_angle(camera.projection)) return;
+  const Vec3 way = camera.position - camera.look_at;
+  camera.position = Vec3(camera.look_at + part_of_way * way);
+  if (camera.near_limit || camera.fade.near_length > 0) return;
+  camera.fade.near_length = part_of_way * boost::qvm::mag(way);
+  camera.through_clouds = false;
 }
 
 std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Scene& scene) {
@@ -153,7 +175,10 @@ std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Sce
   if (!has_target) return note_of(scene, list.size());
   path.follow = follow_of(target);
   show_box_around_target(snapshot, scene);
-  if (!target.is_approached) return "";
+  if (!target.is_approached) {
+    let_matter_fade_before_target(scene);
+    return "";
+  }
   path.approach.emplace();
   // Close to the densest place there is far more light than in the whole.
   if (!scene.finish.exposure) scene.finish.exposure_follows = true;

@@ -20,4 +20,9 @@ std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Sce
 // time, from wherever an orbit leads it. Periodic boxes stay as they are. Throws as readers do.
 void show_whole_course(Scene& scene);
 
+// Brings a camera that looks in all directions, and was chosen from the data as if it looked in
+// one, so near that matter is around it. What comes close fades, so that clouds around the camera,
+// of which there are thousands there, need not be looked through. Others stay.
+void stand_amid_matter(Camera& camera);
+
 }  // namespace splotchcl

@@ -77,6 +77,14 @@ std::vector<std::string> eyes_of(const std::filesystem::path& path, const FilmLa
           std::string("stereo_mode=") + (is_beside ? "left_right" : "top_bottom")};
 }
 
+// Each picture of H.264 says by itself how two eyes are packed, squeezed or not: screens that know
+// no boxes look there.
+std::vector<std::string> packing_of(const CodecFacts& facts, const FilmLayout& layout) {
+  if (facts.codec != Codec::h264 || layout.eyes == FilmLayout::Eyes::one) return {};
+  const bool is_beside = layout.eyes == FilmLayout::Eyes::side_by_side;
+  return {"-x264-params", is_beside ? "frame-packing=3" : "frame-packing=4"};
+}
+
 std::vector<std::string> arguments(const std::filesystem::path& path, const MovieSettings& settings,
                                    int width, int height, const FilmLayout& layout,
                                    const std::filesystem::path& unfinished) {
@@ -107,6 +115,7 @@ std::vector<std::string> arguments(const std::filesystem::path& path, const Movi
   }
   add(color_arguments(facts, bits));
   add(codec_arguments(facts, settings, bits));
+  add(packing_of(facts, layout));
   if (!settings.audio.empty()) add(sound_of(path, facts));
   // No times and versions in the file.
   add({"-flags:v", "+bitexact", "-fflags", "+bitexact", "-map_metadata", "-1"});

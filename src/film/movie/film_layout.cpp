@@ -13,12 +13,27 @@
 
 namespace splotchcl {
 
+namespace {
+
+// Boxes do not tell squeezed pictures from others: players know them by their shape.
+FilmLayout::Eyes eyes_of(StereoLayout layout) {
+  switch (layout) {
+    case StereoLayout::side_by_side:
+    case StereoLayout::side_by_side_half:
+      return FilmLayout::Eyes::side_by_side;
+    case StereoLayout::top_bottom:
+    case StereoLayout::top_bottom_half:
+      return FilmLayout::Eyes::top_bottom;
+    default:
+      return FilmLayout::Eyes::one;
+  }
+}
+
+}  // namespace
+
 FilmLayout layout_of(const Scene& scene) {
   FilmLayout layout;
-  if (scene.stereo && scene.stereo->layout == StereoLayout::side_by_side)
-    layout.eyes = FilmLayout::Eyes::side_by_side;
-  if (scene.stereo && scene.stereo->layout == StereoLayout::top_bottom)
-    layout.eyes = FilmLayout::Eyes::top_bottom;
+  if (scene.stereo) layout.eyes = eyes_of(scene.stereo->layout);
   if (!scene.camera || scene.camera->projection != Projection::equirectangular) return layout;
   const double width = field_of_view_degrees(*scene.camera);
   layout.panorama = {width, width * scene.image.height / scene.image.width};

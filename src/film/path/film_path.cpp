@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/path/frame_settings.h"
+#include "film/path/simplify_path.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/scene_file.h"
@@ -95,7 +96,9 @@ bool path_has_camera(const Scene& scene) {
          path.keyframes.front().values.count("camera.look_at") > 0;
 }
 
-FilmPath::FilmPath(const Scene& scene, std::vector<std::string>& notes, const FindFollowed& find) {
+FilmPath::FilmPath(const Scene& as_given, std::vector<std::string>& notes,
+                   const FindFollowed& find) {
+  const Scene scene = with_simple_path(as_given, notes);
   if (!scene.path.file.empty()) {
     table_.emplace(scene.path.file, scene);
     settle_snapshot_index(*table_, scene, notes);

@@ -38,6 +38,15 @@ Vec3 direction_of(const ViewLine& line) {
   return boost::qvm::normalized(line.look_at - line.position);
 }
 
+// What to do about a film that turns so many times too fast. Keyframes have frames of their own.
+std::string slower_film(const Scene& scene, int frames, double times) {
+  if (!scene.path.keyframes.empty() || !scene.path.file.empty())
+    return "a path that turns less, or keyframes that lie farther apart";
+  constexpr double rounding = 1e-9;
+  const auto wanted = static_cast<int>(std::ceil(frames * times * (1 - rounding)));
+  return fmt::format("--set movie.frames={} or more, or a path that turns less", wanted);
+}
+
 }  // namespace
 
 FrameSettings::FrameSettings(const Scene& scene, const PathTable* table, int frames,
@@ -103,9 +112,8 @@ void FrameSettings::limit_turns(const Scene& scene, std::vector<std::string>& no
   if (slow.empty()) {
     throw UsageError(fmt::format(
         "path.max_turn_rate: found a view that turns by {:.3g} degrees per second, and all along "
-        "the film faster than the {:g} that it may, expected more frames, or a path that turns "
-        "less",
-        found, *scene.path.max_turn_rate));
+        "the film faster than the {:g} that it may, expected {}",
+        found, *scene.path.max_turn_rate, slower_film(scene, frames_, largest / most)));
   }
   double farthest = 0;
   for (std::size_t i = 0; i < views.size(); ++i)

@@ -31,11 +31,13 @@ std::optional<PictureCloud> cloud_in_picture(const DrawnComponent& component, co
   // A cloud that is no circle has the light of a circle of the same area.
   const double height = sigma * place->pixels_per_length;
   cloud.sigma = height * std::sqrt(stretch_of_area(*place, height, frame.camera, frame.projection));
+  cloud.of_lens = frame.lens.aperture > 0 ? lens_sigma(frame, place->pixels_per_length) : 0;
   const double weight = particles.weight.is_absent() ? 1 : static_cast<double>(particles.weight[i]);
   cloud.column = central_column(component.weight, weight, h, sigma);
   if (!particles.intensity.is_absent()) {
     cloud.column *= normalized(static_cast<double>(particles.intensity[i]), component.intensity);
   }
+  cloud.column *= part_after_fade(frame, cloud.depth);
   const bool is_good = std::isfinite(cloud.x) && std::isfinite(cloud.y) &&
                        std::isfinite(cloud.depth) && cloud.sigma > 0 &&
                        std::isfinite(cloud.sigma) && cloud.column > 0 &&

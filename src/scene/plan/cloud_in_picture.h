@@ -10,6 +10,7 @@ namespace splotchcl {
 // A particle as the picture shows it.
 struct PictureCloud {
   double x = 0, y = 0, sigma = 0;  // pixels of the whole picture
+  double of_lens = 0;              // by which a lens widens it, likewise (drawn_width())
   double depth = 0;                // as that of Projected
   double column = 0;               // through its centre, times its intensity, before colour
 };

@@ -59,7 +59,7 @@ class ComponentSample {
     SampledCloud cloud;
     cloud.x = found->x;
     cloud.y = found->y;
-    const DrawnWidth drawn = drawn_width(found->sigma, frame_.kernel);
+    const DrawnWidth drawn = drawn_width(found->sigma, frame_.kernel, found->of_lens);
     cloud.sigma = drawn.sigma;
     if (!reaches_picture(cloud, frame_)) return std::nullopt;
     const double amplitude = colors_(i) / component_.reference_column * found->column;

@@ -1,5 +1,5 @@
-// Films that follow real matter. Where it truly is, is measured here in a way of its own: by the
-// medians of the same particles.
+// Films that follow real matter. Where it truly is, is measured here in a way of its own: where
+// most of the same particles are, from the mean of all on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,21 +66,26 @@ Identities chosen_in(const Scene& scene, const Snapshot& snapshot) {
   return chosen;
 }
 
-// From `from` to the medians of these particles.
-Vec3 to_medians(const Snapshot& snapshot, const Identities& wanted, const Vec3& from, double box) {
-  std::vector<double> axes[3];
+// From `from` to where most of these particles are: always nearer the mean of ever fewer.
+Vec3 to_most(const Snapshot& snapshot, const Identities& wanted, const Vec3& from, double box) {
+  std::vector<Vec3> offsets;
   for (const Placed& particle : particles_of(snapshot)) {
-    if (wanted.count(particle.identity) == 0) continue;
-    const Vec3 offset = nearest(particle.place - from, box);
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      axes[axis].push_back(offset.a[axis]);
+    if (wanted.count(particle.identity) > 0) offsets.push_back(nearest(particle.place - from, box));
   }
-  Vec3 median;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::sort(axes[axis].begin(), axes[axis].end());
-    median.a[axis] = axes[axis].at(axes[axis].size() / 2);
+  const auto least = static_cast<std::ptrdiff_t>(wanted.size() / 10);
+  for (auto end = offsets.end(); end - offsets.begin() > least;
+       end = offsets.begin() + (end - offsets.begin()) * 9 / 10) {
+    Vec3 mean = {{0, 0, 0}};
+    for (auto offset = offsets.begin(); offset != end; ++offset)
+      mean += *offset / static_cast<double>(end - offsets.begin());
+    std::sort(offsets.begin(), offsets.end(), [&](const Vec3& a, const Vec3& b) {
+      return mag(Vec3(a - mean)) < mag(Vec3(b - mean));
+    });
   }
-  return median;
+  Vec3 mean = {{0, 0, 0}};
+  for (std::ptrdiff_t i = 0; i < least; ++i)
+    mean += offsets[static_cast<std::size_t>(i)] / static_cast<double>(least);
+  return mean;
 }
 
 // Of the picture's shorter side, at the look-at point.
@@ -122,7 +127,7 @@ double farthest_from_truth(const FollowedFilm& film) {
   for (int frame = 0; frame < film_frames; ++frame) {
     const Scene scene = scenes.scene_at(frame);
     const Vec3 missed =
-        to_medians(*scenes.snapshot_at(scene), followed, scene.camera->look_at, film.box);
+        to_most(*scenes.snapshot_at(scene), followed, scene.camera->look_at, film.box);
     farthest = std::max(farthest, part_of_picture(scene, missed));
   }
   return farthest;
@@ -255,6 +260,23 @@ TEST(SuggestedFilm, OfASnapshotIsAnOrbitThatEasesInAndOut) {
   EXPECT_EQ(film.path().frame_count(), 250);
 }
 
+TEST(SuggestedFilm, OfADomeStandsAmidTheMatter) {
+  const test::TemporaryFolder folder;
+  write_ball(folder / "snapshot_0", 50);
+  const auto distance = [&](std::vector<std::string> settings) {
+    settings.emplace_back("image.size=[64, 64]");
+    const Camera camera = *FilmScene(folder / "snapshot_0", settings).scene_at(0).camera;
+    return mag(camera.look_at - camera.position);
+  };
+  EXPECT_GT(distance({}), 60) << "from afar";
+  EXPECT_LT(distance({"camera.projection=fisheye"}), 40) << "within the box of 100";
+  const std::vector<std::string> own = {"camera.projection=fisheye", "camera.position=[50,50,500]",
+                                        "camera.look_at=[50,50,50]"};
+  EXPECT_NEAR(distance(own), 450, 1e-9);
+  const FilmScene film(folder / "snapshot_0", {"camera.projection=fisheye"});
+  EXPECT_GT(film.scene_at(0).camera->fade.near_length, 1) << "what comes close fades";
+}
+
 TEST(SuggestedFilm, OfASequenceGoesThroughItsTime) {
   const test::TemporaryFolder folder;
   for (int i = 3; i < 6; ++i)
@@ -275,6 +297,9 @@ TEST(SuggestedFilm, OrbitsAroundWhatItFollows) {
     EXPECT_NEAR(mag(film.scene_at(frame).camera->look_at - place), 0, 1) << frame;
   }
   EXPECT_GT(mag(film.scene_at(4).camera->position - film.scene_at(0).camera->position), 1);
+  const Camera camera = *film.scene_at(0).camera;
+  const double distance = mag(camera.look_at - camera.position);
+  EXPECT_NEAR(camera.fade.near_length, 0.5 * distance, 1e-6 * distance);
 }
 
 TEST(SuggestedFilm, CanBeWrittenAsASceneAndIsTheSame) {

@@ -359,10 +359,10 @@ TEST_F(Films, OfNumberedExrHaveATimecode) {
   EXPECT_THAT(bytes_of(folder_ / "frame_3.exr"), HasSubstr("00:00:00:03"));
 }
 
-// The light of an ever brighter component while the shutter is open: at the first frame from when
-// it is 1 to when it is 1.25 times as bright, in two pictures.
-TEST_F(Films, WithMotionBlurAreMeansOfTheirTime) {
-  const auto film_with = [this](const std::string& output, const std::string& movie) {
+class BlurredFilms : public Films {
+ protected:
+  // Of an ever brighter component: 1 at frame 0, 3 at frame 2.
+  void film_with(const std::string& output, const std::string& movie) {
     std::ofstream(folder_ / "film.toml") << "snapshot = 'halo.gadget'\n"
                                             "[image]\nsize = [16, 12]\n"
                                             "[path]\ninterpolation = 'linear'\n"
@@ -376,14 +376,35 @@ TEST_F(Films, WithMotionBlurAreMeansOfTheirTime) {
                                             "absorption = 'none'\n";
     options_.output = folder_ / output;
     make_film(options_, report_);
-  };
+  }
+  double middle_of(const std::string& name) const {
+    return static_cast<double>(read_image(folder_ / name).pixels.at(4 * (16 * 6 + 8)));
+  }
+
+  const std::string blur_ = "frames = 3\nmotion_blur = { shutter = 0.5, samples = 2 }\n";
+};
+
+// At the first frame from when it is 1 to when it is 1.25 times as bright, in two pictures.
+TEST_F(BlurredFilms, AreMeansOfTheirTime) {
   film_with("sharp_%d.exr", "frames = 3\n");
-  film_with("blurred_%d.exr", "frames = 3\nmotion_blur = { shutter = 0.5, samples = 2 }\n");
-  const auto first = [this](const std::string& name) {
-    return read_image(folder_ / name).pixels.at(4 * (16 * 6 + 8));
-  };
-  EXPECT_NEAR(first("blurred_0.exr") / first("sharp_0.exr"), 0.5 * (1 + 1.125), 1e-4);
-  EXPECT_NEAR(first("blurred_1.exr") / first("sharp_1.exr"), 1, 1e-4);
+  film_with("blurred_%d.exr", blur_);
+  EXPECT_NEAR(middle_of("blurred_0.exr") / middle_of("sharp_0.exr"), 0.5 * (1 + 1.125), 1e-4);
+  EXPECT_NEAR(middle_of("blurred_1.exr") / middle_of("sharp_1.exr"), 1, 1e-4);
+}
+
+// What a shutter collects is light, of which the tone makes what is shown.
+TEST_F(BlurredFilms, AreMeansOfLightBeforeItsTone) {
+  options_.settings = {"finish.tone=filmic", "finish.exposure=-1", "finish.white=4", "image.bits=16",
+                       "image.dither=false"};
+  film_with("blurred_%d.png", blur_);
+  const double blurred = middle_of("blurred_0.png");
+  film_with("sharp_%d.png", "frames = 3\n");
+  EXPECT_LT(blurred, 0.9);
+  EXPECT_GT(blurred, 1.001 * middle_of("sharp_0.png"));
+  options_.settings.push_back(
+      "path.keyframes=[{frame = 0, \"component.gas.brightness\" = 1.0625}]");
+  film_with("constant_%d.png", "frames = 3\n");
+  EXPECT_NEAR(blurred, middle_of("constant_0.png"), 3e-5);
 }
 
 }  // namespace

@@ -94,6 +94,17 @@ TEST_F(ToldFilm, OfMatroskaSaysItsEyes) {
   EXPECT_THAT(make("plain.mkv", {}), Not(HasSubstr("side by side")));
 }
 
+TEST_F(ToldFilm, SaysItsEyesInEachPictureOfH264) {
+  FilmLayout layout;
+  layout.eyes = FilmLayout::Eyes::top_bottom;
+  make("film.mp4", layout);
+  EXPECT_THAT(answer("ffprobe -v error -show_frames '" + (folder_ / "film.mp4").string() + "'"),
+              HasSubstr("side_data_type=Stereo 3D"));
+  make("flat.mp4", {});  // of one eye
+  EXPECT_THAT(answer("ffprobe -v error -show_frames '" + (folder_ / "flat.mp4").string() + "'"),
+              Not(HasSubstr("Stereo 3D")));
+}
+
 TEST_F(ToldFilm, HasSoundOfItsOwnLength) {
   const std::string sound = (folder_ / "tone.wav").string();
   answer("ffmpeg -v error -f lavfi -i sine=duration=9 '" + sound + "'");

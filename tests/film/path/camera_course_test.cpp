@@ -212,13 +212,14 @@ TEST(SlowTurns, AreToldAndKeptToInAFilm) {
   EXPECT_THAT(notes, ElementsAre(HasSubstr("looks ahead")));
 }
 
-TEST(SlowTurns, AskForMoreFramesOfAnOrbit) {
-  EXPECT_THAT(refusal([] {
-                film_of(
-                    "[path.orbit]\ndegrees = 360\n[movie]\nframes = 50\n"
-                    "[path]\nmax_turn_rate = 20\n");
-              }),
-              HasSubstr("expected more frames"));
+// 360 degrees in 450 frames are 20 in the second of 25.
+TEST(SlowTurns, TellHowManyFramesAnOrbitNeeds) {
+  const auto orbit = [](int frames) {
+    return "[path.orbit]\ndegrees = 360\n[path]\nmax_turn_rate = 20\n[movie]\nframes = " +
+           std::to_string(frames) + "\n";
+  };
+  EXPECT_THAT(refusal([&] { film_of(orbit(50)); }), HasSubstr("--set movie.frames=450"));
+  EXPECT_EQ(film_of(orbit(450)).size(), 450U);
 }
 
 TEST(MotionBlur, DrawsFramesFromBetweenThem) {
