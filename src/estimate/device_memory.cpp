@@ -62,7 +62,7 @@ class FrameBuffers {
   // Which tiles each is listed in.
   std::uint64_t tiles(std::uint64_t splats) const {
     return splats * (variant_.rows ? sizeof(std::uint32_t)
-                                  : sizeof(shared::SplatTiles) + sizeof(std::uint32_t));
+                                   : sizeof(shared::SplatTiles) + sizeof(std::uint32_t));
   }
 
   // The same of a chunk's, where they are not with the splats. Of a GPU where these lie as well.

@@ -60,8 +60,8 @@ Three lab_of(const Rgb& color) {
 
 Rgb color_of_lab(const Three& lab) {
   const double y = (lab[0] + 16) / 116, x = y + lab[1] / 500, z = y - lab[2] / 200;
-  const Three light =
-      times(rgb_of_xyz, {white_point[0] * ratio_of(x), white_point[1] * ratio_of(y), white_point[2] * ratio_of(z)});
+  const Three light = times(rgb_of_xyz, {white_point[0] * ratio_of(x), white_point[1] * ratio_of(y),
+                                         white_point[2] * ratio_of(z)});
   Rgb color;
   for (std::size_t c = 0; c < 3; ++c)
     color[c] = static_cast<float>(display_of_linear(std::clamp(light[c], 0.0, 1.0)));

@@ -394,8 +394,8 @@ TEST_F(BlurredFilms, AreMeansOfTheirTime) {
 
 // What a shutter collects is light, of which the tone makes what is shown.
 TEST_F(BlurredFilms, AreMeansOfLightBeforeItsTone) {
-  options_.settings = {"finish.tone=filmic", "finish.exposure=-1", "finish.white=4", "image.bits=16",
-                       "image.dither=false"};
+  options_.settings = {"finish.tone=filmic", "finish.exposure=-1", "finish.white=4",
+                       "image.bits=16", "image.dither=false"};
   film_with("blurred_%d.png", blur_);
   const double blurred = middle_of("blurred_0.png");
   film_with("sharp_%d.png", "frames = 3\n");
