@@ -131,7 +131,7 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (has_suggested_view && scene_.time.is_set() && target.name.empty()) show_whole_course(scene_);
   if (opened.suggested && scene_.camera &&
       std::none_of(settings.begin(), settings.end(), places_camera)) {
-    stand_amid_matter(*scene_.camera);
+    stand_amid_matter(*scene_.camera, !target.name.empty());
   }
   // A scene file that says how long its film is says what it is, too.
   if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {

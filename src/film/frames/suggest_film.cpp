@@ -143,13 +143,13 @@ void show_whole_course(Scene& scene) {
   if (!has_box) scene.camera = suggest_camera(target_around(targets));
 }
 
-void stand_amid_matter(Camera& camera) {
+void stand_amid_matter(Camera& camera, bool has_target) {
   // What a picture of 45 degrees shows from afar is half as wide as the way to it, or wider.
   constexpr double part_of_way = 0.2;
   if (!is_wide_angle(camera.projection)) return;
   const Vec3 way = camera.position - camera.look_at;
   camera.position = Vec3(camera.look_at + part_of_way * way);
-  if (camera.near_limit || camera.fade.near_length > 0) return;
+  if (has_target || camera.near_limit || camera.fade.near_length > 0) return;
   camera.fade.near_length = part_of_way * boost::qvm::mag(way);
   camera.through_clouds = false;
 }

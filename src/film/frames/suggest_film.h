@@ -21,8 +21,9 @@ std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Sce
 void show_whole_course(Scene& scene);
 
 // Brings a camera that looks in all directions, and was chosen from the data as if it looked in
-// one, so near that matter is around it. What comes close fades, so that clouds around the camera,
-// of which there are thousands there, need not be looked through. Others stay.
-void stand_amid_matter(Camera& camera);
+// one, so near that matter is around it. Where it has no target to come close to, what does fades,
+// so that clouds around the camera, of which there are thousands there, need not be looked through.
+// Other cameras stay.
+void stand_amid_matter(Camera& camera, bool has_target);
 
 }  // namespace splotchcl

@@ -275,6 +275,12 @@ TEST(SuggestedFilm, OfADomeStandsAmidTheMatter) {
   EXPECT_NEAR(distance(own), 450, 1e-9);
   const FilmScene film(folder / "snapshot_0", {"camera.projection=fisheye"});
   EXPECT_GT(film.scene_at(0).camera->fade.near_length, 1) << "what comes close fades";
+  const std::vector<std::string> dome = {"camera.projection=fisheye", "movie.frames=3"};
+  for (const bool is_approached : {false, true}) {
+    const FilmScene to_ball(folder / "snapshot_0", dome, nullptr, {"densest", is_approached});
+    const Camera end = *to_ball.scene_at(2).camera;
+    EXPECT_LE(end.fade.near_length, 0.51 * mag(end.look_at - end.position)) << "but no target";
+  }
 }
 
 TEST(SuggestedFilm, OfASequenceGoesThroughItsTime) {
