@@ -128,7 +128,8 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
-  if (has_suggested_view && scene_.time.is_set() && target.name.empty()) show_whole_course(scene_);
+  if (has_suggested_view && scene_.time.is_set() && !target.is_approached)
+    show_whole_course(scene_);
   if (opened.suggested && scene_.camera &&
       std::none_of(settings.begin(), settings.end(), places_camera)) {
     stand_amid_matter(*scene_.camera, !target.name.empty());

@@ -122,15 +122,21 @@ Target target_around(const std::vector<Target>& targets) {
   return around;
 }
 
+// How wide the picture of what is followed is, of what the scene's camera shows.
+double part_of_view(const Scene& scene) {
+  const CameraFrame shown = make_camera_frame(*scene.camera, scene.image.width, scene.image.height);
+  const double side = std::min(scene.image.width, scene.image.height) / shown.pixels_per_length;
+  return scene.path.follow->size * find_followed(scene, {scene.time.index}).radius() / side;
+}
+
 // Matter that the camera meets on its way around the target would lie over it as a veil.
-void let_matter_fade_before_target(Scene& scene) {
+void let_matter_fade_before_target(double part_of_view, Scene& scene) {
+  using namespace boost::qvm;
   constexpr double part_of_way = 0.5;
   Camera& camera = *scene.camera;
   if (camera.near_limit || camera.fade.near_length > 0) return;
-  const CameraFrame shown = make_camera_frame(camera, scene.image.width, scene.image.height);
-  const double side = std::min(scene.image.width, scene.image.height) / shown.pixels_per_length;
-  const double wanted = scene.path.follow->size * find_followed(scene, {scene.time.index}).radius();
-  camera.fade.near_length = part_of_way * shown.look_at_distance * wanted / side;
+  const double way = mag(camera.look_at - camera.position);
+  camera.fade.near_length = part_of_way * way * part_of_view;
 }
 
 }  // namespace
@@ -176,7 +182,10 @@ std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Sce
   path.follow = follow_of(target);
   show_box_around_target(snapshot, scene);
   if (!target.is_approached) {
-    let_matter_fade_before_target(scene);
+    const double part = part_of_view(scene);
+    // Nothing is shown smaller than in the picture of all that there is.
+    if (part > 1) path.follow->size /= part;
+    let_matter_fade_before_target(std::min(part, 1.0), scene);
     return "";
   }
   path.approach.emplace();
