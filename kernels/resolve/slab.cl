@@ -33,7 +33,8 @@ INLINED float8 lay_channel(float8 depth, float8 light, int count, __global float
   const float8 opacity1 = vload8(0, opacity), passed0 = 1.0f - opacity0;
   const float8 taken = min(opacity1 - opacity0, passed0) / max(passed0, 1e-30f);
   const float8 narrow_depth = depth_of(taken);
-  const float8 narrow_phi = select((float8)(1.0f), taken / max(narrow_depth, 1e-30f), taken > 0.0f);
+  // Of less than a rounding it is 1; quotients of the smallest tails are anything.
+  const float8 narrow_phi = select((float8)(1.0f), taken / narrow_depth, taken > 0x1p-24f);
   const float8 phi = phi_of_depth(depth);
   const float8 narrow = vload8(0, source) - source0, wide = passed0 * light;
   const float8 new_source = source0 + narrow * phi + wide * (phi * narrow_phi);

@@ -7,6 +7,7 @@
 
 #include "adversary/map_judge.h"
 #include "adversary/trial_frame.h"
+#include "splotchcl/error.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/reference.h"
 
@@ -77,7 +78,7 @@ void compare(const Image& image, const ReferenceImage& exact, const std::vector<
 }  // namespace
 
 Measurement Judge::measure(const Trial& trial) {
-  if (trial.map != MapKind::none) return measure_map(trial, renderer(trial.shape, false));
+  if (trial.map != MapKind::none) return measure_map_or_refusal(trial);
   const Frame frame = make_frame(trial);
   const Frame merged = make_merged_frame(trial);
   Renderer& renderer = this->renderer(trial.shape, trial.certify > 0);
@@ -91,6 +92,17 @@ Measurement Judge::measure(const Trial& trial) {
   compare(image, reference::render(merged), pixels_on_cut_edges(merged), renderer.stats().check,
           measurement);
   return measurement;
+}
+
+// A map that is refused breaks no promise.
+Measurement Judge::measure_map_or_refusal(const Trial& trial) {
+  try {
+    return measure_map(trial, renderer(trial.shape, false));
+  } catch (const UsageError&) {
+    Measurement none;
+    none.promise = std::max(trial.tolerance, extended_tolerance);
+    return none;
+  }
 }
 
 Renderer& Judge::renderer(CompositeShape shape, bool certify) {

@@ -29,6 +29,7 @@ class Judge {
   Measurement measure(const Trial& trial);
 
  private:
+  Measurement measure_map_or_refusal(const Trial& trial);
   Renderer& renderer(CompositeShape shape, bool certify);
   std::map<std::pair<CompositeShape, bool>, std::unique_ptr<Renderer>> renderers_;
 };

@@ -364,6 +364,12 @@ std::vector<HardCase> promise_cases() {
             "layers too thin for the rounding of an opacity still add light",
             "tolerance 0.0001 group point places 100 copies 200 y -100 sigma 30 peak 9000",
             {LightPlan::ordered}),
+      found("TailsOfNarrowCloudsBeforeASheet",
+            "slabs divided what tails of 1e-32 take by a number that was larger",
+            "light ordered tolerance 0.01 turned 1 group point places 4 x 6 sigma 2 width_range 2 "
+            "star 1 group sheet copies 35 spread 0.9 sigma 200 width_range 1.2 peak 0.0005 hue 0.7 "
+            "star 1",
+            {LightPlan::ordered}),
       found("EqualLayersBetweenAnOpaqueOneAndABackground",
             "each errs by the same rounding of an opacity close to 1",
             "light ordered background 70 group point sigma 8 peak 60 group point places 10 copies "
