@@ -300,6 +300,14 @@ double rounded(double value, double size) {
 
 }  // namespace
 
+std::vector<int> types_of(const std::vector<Component>& components) {
+  std::vector<int> types;
+  for (const Component& component : components) {
+    types.insert(types.end(), component.types.begin(), component.types.end());
+  }
+  return types;
+}
+
 Target suggest_target(const Snapshot& snapshot, const std::vector<int>& types, int width,
                       int height) {
   return find_target(snapshot, types_to_frame(types), static_cast<double>(height) / width);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "splotchcl/camera.h"
+#include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/vector.h"
 
@@ -40,6 +41,9 @@ struct Target {
 // of the picture over its width. Throws DataError when none of the types has a particle at a finite
 // position.
 Target find_target(const Snapshot& snapshot, const std::vector<int>& types, double aspect);
+
+// All that these components draw, one after the other.
+std::vector<int> types_of(const std::vector<Component>& components);
 
 // What a picture of these particle types is about. Throws as find_target does.
 Target suggest_target(const Snapshot& snapshot, const std::vector<int>& types, int width,

@@ -311,14 +311,6 @@ void change_to_press(const Snapshot& snapshot, Scene& scene) {
   finish_for_press(scene.finish);
 }
 
-std::vector<int> types_of(const std::vector<Component>& components) {
-  std::vector<int> types;
-  for (const Component& component : components) {
-    types.insert(types.end(), component.types.begin(), component.types.end());
-  }
-  return types;
-}
-
 }  // namespace
 
 Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types, Look look) {

@@ -87,7 +87,8 @@ void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
 
 constexpr std::size_t most_looked_at = 5;
 
-// Of the first snapshot, the last, and some between.
+// Of the first snapshot, the last, and some between; none where one fills a box, which looks alike
+// at all times.
 std::vector<Target> targets_of_course(const Scene& scene) {
   const std::vector<ListedSnapshot> list = list_sequence(scene.time);
   const std::size_t count = std::min(list.size(), most_looked_at);
@@ -96,10 +97,9 @@ std::vector<Target> targets_of_course(const Scene& scene) {
   for (std::size_t k = 0; k < count; ++k) {
     Scene at = scene;
     at.time.index = list[count == 1 ? 0 : k * (list.size() - 1) / (count - 1)].index;
-    std::vector<int> types;
-    for (const Component& component : at.components)
-      types.insert(types.end(), component.types.begin(), component.types.end());
-    targets.push_back(suggest_target(*snapshots.at(at), types, at.image.width, at.image.height));
+    targets.push_back(suggest_target(*snapshots.at(at), types_of(at.components), at.image.width,
+                                     at.image.height));
+    if (targets.back().shape == Target::Shape::box) return {};
   }
   return targets;
 }
@@ -143,10 +143,7 @@ void let_matter_fade_before_target(double part_of_view, Scene& scene) {
 
 void show_whole_course(Scene& scene) {
   const std::vector<Target> targets = targets_of_course(scene);
-  const bool has_box = std::any_of(targets.begin(), targets.end(), [](const Target& target) {
-    return target.shape == Target::Shape::box;
-  });
-  if (!has_box) scene.camera = suggest_camera(target_around(targets));
+  if (!targets.empty()) scene.camera = suggest_camera(target_around(targets));
 }
 
 void stand_amid_matter(Camera& camera, bool has_target) {
