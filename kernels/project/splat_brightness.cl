@@ -24,6 +24,19 @@ static inline VALUE value_of_octave(__global const float* values, int count, INT
   return found;
 }
 
+static inline INTEGER octave_of(VALUE width2) {
+  return clamp((power_of_two(width2) >> 1) + 1, (INTEGER)(0), (INTEGER)(WIDTH_OCTAVES - 1));
+}
+
+// The larger one of two octaves between which a width lies, as far as single precision knows: the
+// check, which has widths as they are drawn, may take it for one of either.
+static inline VALUE need_of_width(__global const float* values, VALUE width2,
+                                  const ProjectParameters p) {
+  const float rounding = 1e-6f;
+  return max(value_of_octave(values, p.octaves_in_need, octave_of(width2 * (1.0f - rounding))),
+             value_of_octave(values, p.octaves_in_need, octave_of(width2 * (1.0f + rounding))));
+}
+
 // The largest of E and A at weight 1.
 INLINED VALUE brightest_color(const ParticleLanes particles, const ProjectParameters p) {
   VALUE brightest = p.peak_color;
@@ -59,11 +72,9 @@ INLINED BrightnessLanes find_brightness(VALUE own_peak, const WidthLanes widths,
   b.bright = b.own_peak > p.bright_peak;
   if (p.octaves_in_need == 0) return b;
   const VALUE width2 = sigma * max(sigma, drawn_sigma_x(widths)) + p.widening;
-  const INTEGER octave =
-      clamp((power_of_two(width2) >> 1) + 1, (INTEGER)(0), (INTEGER)(WIDTH_OCTAVES - 1));
-  b.farther = value_of_octave(needs->farther, p.octaves_in_need, octave);
+  b.farther = need_of_width(needs->farther, width2, p);
   if (p.has_bright_octaves) {
-    const VALUE light = value_of_octave(needs->light, p.octaves_in_need, octave);
+    const VALUE light = need_of_width(needs->light, width2, p);
     b.crowd_peak = max(b.own_peak, light);
     // All of the octave, the ones that are brighter still as well: the check takes it for granted.
     b.bright |= light > 0.0f;

@@ -364,6 +364,11 @@ std::vector<HardCase> promise_cases() {
             "layers too thin for the rounding of an opacity still add light",
             "tolerance 0.0001 group point places 100 copies 200 y -100 sigma 30 peak 9000",
             {LightPlan::ordered}),
+      found("MeansAlongOneAxisOfAPanorama",
+            "the check took widened clouds for wider than they had been projected as",
+            "light emission projection equirectangular tolerance 0.01 height 32 turned 1 group "
+            "corner copies 400 x 30 y -3 sigma 1.88863 peak 1.8",
+            {LightPlan::emission, LightPlan::proportional}),
       found("TailsOfNarrowCloudsBeforeASheet",
             "slabs divided what tails of 1e-32 take by a number that was larger",
             "light ordered tolerance 0.01 turned 1 group point places 4 x 6 sigma 2 width_range 2 "
