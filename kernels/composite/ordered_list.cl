@@ -187,6 +187,8 @@ INLINED void draw_list(float* tile, const Segment segment, const TileInPlanes* p
   const float* const own_front = is_one_block ? 0 : front;
   WaitingSplats waiting;
   clear_waiting(&waiting);
+  waiting.forms.first = p->phi_first;
+  waiting.forms.second = p->phi_short;
   float depth = 0.0f;
   BlockOfLayers block;
   block.tile = tile;

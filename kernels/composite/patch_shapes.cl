@@ -26,6 +26,7 @@ typedef struct PatchShapes {
 typedef struct PatchValues {
   float along[ALL_ROWS];
   float across[MOST_SHAPES * PATCH_WIDTH];
+  float most_across[MOST_SHAPES];
   float squares[MOST_SHAPES * PATCH_WIDTH];  // of distances along columns, where rows are cut
   float limits[ALL_ROWS];                    // as fill_limits() has them
 } __attribute__((aligned(64))) PatchValues;
@@ -51,12 +52,22 @@ INLINED PATCH square_of_disc(PATCH d, float squeeze) {
   return SQUEEZED(d) * SQUEEZED(d);
 }
 
+// The most of the shape in the columns of a patch from x on: in one of the outer ones, or between
+// them.
+INLINED float most_across(const PatchShapes* shapes, uint k, int x, const float* across) {
+  const float first = (float)x + FIRST_X, last = first + (float)(PATCH_WIDTH - 1);
+  const float place = shapes->x.place[k];
+  if (place >= first && place <= last) return 1.0f;
+  return across[0] > across[PATCH_WIDTH - 1] ? across[0] : across[PATCH_WIDTH - 1];
+}
+
 // Center values and means have loops of their own, whose constants stay in registers.
 #define EACH_ACROSS(chosen, shape_along)                                                       \
   for (ShapeBits left = (chosen); left != 0; left = without_first(left)) {                     \
     const uint k = first_of(left), at = k * PATCH_WIDTH;                                       \
     const PATCH d = DISTANCE_ALONG(&shapes->x, k, centers);                                    \
     store_patch(shape_along(&shapes->x, k, pixels, d), values->across + at);                   \
+    values->most_across[k] = most_across(shapes, k, x, values->across + at);                   \
     if (CUT_BY_ROWS) store_patch(square_of_disc(d, shapes->squeeze[k]), values->squares + at); \
   }
 INLINED void fill_across(const PatchShapes* shapes, ShapeBits splats, int x, PATCH lanes,

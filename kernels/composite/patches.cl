@@ -7,9 +7,11 @@
 #include "kernels/composite/patch_shapes.cl"
 #include "kernels/composite/rows.cl"
 
-// Bits of the splats whose layers take more than one term, and of those that take three.
+// Layers take one term where they are no deeper than `first`, two down to `second`, and then three.
 typedef struct LayerForms {
-  ShapeBits more_terms, three_terms;
+  ShapeBits more_terms;           // bits of the splats that take more than one somewhere
+  float absorption[MOST_SHAPES];  // of the channel that absorbs most
+  float first, second;
 } LayerForms;
 
 #if PLANES == 6
@@ -37,6 +39,7 @@ INLINED void store_patch_row(const PatchRow row, float* pixel) {
 // A splat in the columns of a patch.
 typedef struct PatchSplat {
   PATCH across;
+  float most_across;
   const float *along, *light;
   PATCH light0, light1, light2, light3, light4, light5;  // of sums, in these columns
   // Where the kernel is cut.
@@ -50,6 +53,7 @@ INLINED PatchSplat splat_of_patch(const PatchShapes* shapes, const PatchValues* 
                                   int x, int y, PATCH lanes) {
   PatchSplat splat;
   splat.across = load_patch(values->across + k * PATCH_WIDTH);
+  splat.most_across = values->most_across[k];
   splat.along = values->along + (size_t)k * TILE_HEIGHT + y;
   splat.light = shapes->light + k * PLANES;
   if (!LIGHT_ORDERED) {
@@ -139,14 +143,24 @@ INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
 #define ADD_ONE_TERM(k) row##k = add_one_term(row##k, splat, k);
 #define ADD_TWO_TERMS(k) row##k = add_two_terms(row##k, splat, k);
 #define ADD_THREE_TERMS(k) row##k = add_three_terms(row##k, splat, k);
-#define ADD_AS_FORMS_ARE                   \
-  if (!(forms.more_terms >> k & 1)) {      \
-    EACH_ROW(ADD_ONE_TERM)                 \
-  } else if (forms.three_terms >> k & 1) { \
-    EACH_ROW(ADD_THREE_TERMS)              \
-  } else {                                 \
-    EACH_ROW(ADD_TWO_TERMS)                \
+// Most of a layer is far less deep than its middle.
+#define ADD_AS_DEEP_AS_HERE                                    \
+  const float deepest = forms->absorption[k] * most_in(splat); \
+  if (deepest <= forms->first) {                               \
+    EACH_ROW(ADD_ONE_TERM)                                     \
+  } else if (deepest <= forms->second) {                       \
+    EACH_ROW(ADD_TWO_TERMS)                                    \
+  } else {                                                     \
+    EACH_ROW(ADD_THREE_TERMS)                                  \
   }
+
+// The most of the splat's shape in the patch.
+INLINED float most_in(const PatchSplat splat) {
+  float most = splat.along[0];
+  for (int k = 1; k < PATCH_HEIGHT; ++k)
+    most = splat.along[k] > most ? splat.along[k] : most;
+  return most * splat.most_across;
+}
 
 // Those of `splats`, of which there are some, to the patch from (x, y) on.
 #define ADD_EACH_SPLAT(ROWS)                                                 \
@@ -156,17 +170,17 @@ INLINED PatchRow add_to_sums(PatchRow row, const PatchSplat splat, int k) {
     ROWS                                                                     \
   }
 INLINED void add_to_patch(float* tile, int x, int y, const PatchShapes* shapes,
-                          const PatchValues* values, LayerForms forms, PATCH lanes) {
+                          const PatchValues* values, const LayerForms* forms, PATCH lanes) {
   ShapeBits splats = splats_of_patch(&shapes->reach, x / PATCH_WIDTH, y / PATCH_HEIGHT);
   if (splats == 0) return;
   float* pixel = tile + y * ROW + x;
   EACH_ROW(LOAD_ROW_OF_PATCH)
   if (!LIGHT_ORDERED) {
     ADD_EACH_SPLAT(EACH_ROW(ADD_TO_SUMS))
-  } else if ((splats & forms.more_terms) == 0) {
+  } else if ((splats & forms->more_terms) == 0) {
     ADD_EACH_SPLAT(EACH_ROW(ADD_ONE_TERM))
   } else {
-    ADD_EACH_SPLAT(ADD_AS_FORMS_ARE)
+    ADD_EACH_SPLAT(ADD_AS_DEEP_AS_HERE)
   }
   EACH_ROW(STORE_ROW_OF_PATCH)
 }
@@ -182,7 +196,7 @@ INLINED ShapeBits splats_of_rows(const PatchReach* reach, int y) {
 // Adds the splats of these shapes to the tile. A call whose argument tells the compiler that it may
 // use registers of sixteen floats (lanes.cl).
 __attribute__((noinline)) static void add_to_patches(float* tile, const PatchShapes* shapes,
-                                                     LayerForms forms, PATCH lanes) {
+                                                     const LayerForms* forms, PATCH lanes) {
   PatchValues values;
   const PatchReach* const reach = &shapes->reach;
   for (int y = 0; y < TILE_HEIGHT; y += PATCH_WIDTH)

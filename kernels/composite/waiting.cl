@@ -18,13 +18,13 @@ static inline void clear_waiting(WaitingSplats* waiting) {
   clear_reach(&waiting->shapes.reach);
   waiting->shapes.x.means = waiting->shapes.y.means = 0;
   waiting->count = 0;
-  waiting->forms.more_terms = waiting->forms.three_terms = 0;
+  waiting->forms.more_terms = 0;
 }
 
 // Adds those that wait to the tile.
 static inline void add_waiting(float* tile, WaitingSplats* waiting) {
   if (waiting->count == 0) return;
-  add_to_patches(tile, &waiting->shapes, waiting->forms, PATCH_LANES);
+  add_to_patches(tile, &waiting->shapes, &waiting->forms, PATCH_LANES);
   clear_waiting(waiting);
 }
 
@@ -49,10 +49,10 @@ static inline void let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2
                             __global const TileSplat* splat, float mean_sigma, int form) {
   const uint number = waiting->count++;
   put_splat(&waiting->shapes, number, rows, columns, splat, mean_sigma);
-  if (LIGHT_ORDERED) {
-    waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
-    waiting->forms.three_terms |= (ShapeBits)(form == BY_THREE_TERMS) << number;
-  }
+#if LIGHT_ORDERED
+  waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
+  waiting->forms.absorption[number] = largest_absorption(splat);
+#endif
   if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting);
 }
 
