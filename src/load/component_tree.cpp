@@ -10,15 +10,16 @@
 #include "load/placement.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
-#include "tree/tree_file.h"
 
 namespace splotchcl {
 namespace {
 
+constexpr const char* trees_key = "tree";
+
 // Read once for all frames of a film.
 const std::optional<Trees>& known_trees(const Snapshot& snapshot) {
   return snapshot.memory().get<std::optional<Trees>>(
-      "tree", [&snapshot] { return read_trees(snapshot.info()); });
+      trees_key, [&snapshot] { return read_trees(snapshot.info()); });
 }
 
 // Among the tree's; nothing where it is not there, -1 where the scene names none.
@@ -66,6 +67,14 @@ std::shared_ptr<const TreeOfComponent> wrapped_tree(const TreeOfComponent& tree,
   for (std::size_t axis = 0; axis < 3; ++axis)
     wrapped->period.a[axis] = periodic_box[axis];
   return wrapped;
+}
+
+bool has_tree(const Snapshot& snapshot) {
+  return known_trees(snapshot).has_value();
+}
+
+void give_trees(const Snapshot& snapshot, const Trees& trees) {
+  snapshot.memory().set(trees_key, std::optional<Trees>(trees));
 }
 
 std::string tell_stale_tree(const Snapshot& snapshot) {

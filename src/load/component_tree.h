@@ -10,6 +10,7 @@
 #include "splotchcl/snapshot.h"
 #include "tree/build_tree.h"
 #include "tree/particle_tree.h"
+#include "tree/tree_file.h"
 
 namespace splotchcl {
 
@@ -24,6 +25,11 @@ std::shared_ptr<const TreeOfComponent> component_tree(const Component& component
 // The same of particles that are drawn at their periodic images nearest to a center.
 std::shared_ptr<const TreeOfComponent> wrapped_tree(const TreeOfComponent& tree, const Vec3& center,
                                                     const BoxSides& periodic_box);
+
+// Whether there is one beside the snapshot, or one has been given.
+bool has_tree(const Snapshot& snapshot);
+// Trees that were made of the snapshot's particles in memory take the place of those beside it.
+void give_trees(const Snapshot& snapshot, const Trees& trees);
 
 // What to tell of a tree beside the snapshot that is not of its files; empty: nothing.
 std::string tell_stale_tree(const Snapshot& snapshot);

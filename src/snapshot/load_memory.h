@@ -23,6 +23,11 @@ class LoadMemory {
   const T& get(const std::string& key, const std::function<T()>& make) {
     return own_.get(key, make);
   }
+  // In place of what `make` would give.
+  template <class T>
+  void set(const std::string& key, T value) {
+    own_.set(key, std::move(value));
+  }
   // The same for what does not depend on the snapshot: lists of ids, pictures behind all.
   template <class T>
   const T& get_for_all_times(const std::string& key, const std::function<T()>& make) {
@@ -60,6 +65,10 @@ class LoadMemory {
       }
       found->second.last_load = load_;
       return std::any_cast<const T&>(found->second.value);
+    }
+    template <class T>
+    void set(const std::string& key, T value) {
+      values_.insert_or_assign(key, Value{std::move(value), load_});
     }
     void begin_load();
 

@@ -144,6 +144,7 @@ ViewDrawer::ViewDrawer(SceneWithSnapshot source, const Options& options,
       drawer_(drawer_options(options)) {
   opened_ = fixed_scene(splotchcl::decide(source.scene, *snapshot_, notes));
   particles_ = particle_count(load(opened_));
+  tree_maker_.emplace(opened_, snapshot_);
 }
 
 std::shared_ptr<const Snapshot> ViewDrawer::snapshot_of(const Scene& scene) const {
@@ -183,6 +184,8 @@ Scene ViewDrawer::decide(const Scene& scene) const {
 
 Frame ViewDrawer::load(const Scene& scene) const {
   std::vector<std::string> ignored;
+  const Trees* const trees = tree_maker_ ? tree_maker_->trees() : nullptr;
+  if (trees != nullptr) give_trees(*snapshot_, *trees);
   return load_frame(scene, *snapshot_of(scene), ignored);
 }
 

@@ -13,6 +13,7 @@
 #include "tree/tree_preview.h"
 #include "view/frame_sample.h"
 #include "view/frame_scheduler.h"
+#include "view/tree_maker.h"
 
 namespace splotchcl::view {
 
@@ -81,6 +82,7 @@ class ViewDrawer {
   TreePreview tree_preview_;
   FrameDrawer drawer_;
   std::uint64_t particles_ = 0;
+  std::optional<TreeMaker> tree_maker_;  // reads the snapshot before anything else is drawn
 };
 
 }  // namespace splotchcl::view

@@ -46,7 +46,7 @@ struct Options {
 // All classes but those of 2e5 particles and those that compile kernels of their own.
 Options short_options() {
   Options options;
-  options.pictures = 35;
+  options.pictures = 20;
   options.kinds = {"few_bright_clouds",
                    "crowd",
                    "corner_of_cells",
