@@ -46,7 +46,16 @@ export default {
     let pageOrigin = null;
     let isOpened = false;
 
-    const tellPage = (message) => frame.contentWindow.postMessage(message, pageOrigin);
+    // A notebook may take out of its page what is not in sight.
+    function tellPage(message) {
+      if (isOpened && frame.contentWindow) frame.contentWindow.postMessage(message, pageOrigin);
+      else waiting.push(message);
+    }
+
+    function greet() {
+      isOpened = false;
+      frame.contentWindow.postMessage({splotchcl: 'hello'}, pageOrigin);
+    }
 
     async function show(address) {
       const url = location.protocol.startsWith('http') ? await reachable(address) : null;
@@ -57,17 +66,14 @@ export default {
       }
       pageOrigin = new URL(url).origin;
       frame.src = url;
-      frame.onload = () => tellPage({splotchcl: 'hello'});
+      frame.onload = greet;
       el.replaceChildren(frame);
     }
 
     function takeFromPython(content) {
       if (content.kind === 'page') show(content.address);
       if (content.kind === 'problem') note.textContent = content.text;
-      if (content.kind !== 'set') return;
-      const message = {splotchcl: 'set', settings: content.settings};
-      if (isOpened) tellPage(message);
-      else waiting.push(message);
+      if (content.kind === 'set') tellPage({splotchcl: 'set', settings: content.settings});
     }
 
     function takeFromPage({source, origin, data}) {

@@ -61,8 +61,7 @@ class View:
             raise UsageError(
                 "View: found particles in memory, expected a file, which the view opens by itself"
             )
-        is_scene = isinstance(scene, Scene) or Path(os.fspath(scene)).suffix in (".toml", ".par")
-        if size is None and not is_scene:
+        if size is None and not _is_scene(scene):
             size = (960, 600)
         drawable = open_drawable(scene, None, keys_of(size, None, settings), shown)
         self._scene = drawable.scene.copy()
@@ -129,6 +128,13 @@ class View:
         except (UsageError, DataError, OSError) as error:
             return {"kind": "problem", "text": str(error)}
         return {"kind": "page", "address": server.address}
+
+
+# Which has a size of its own.
+def _is_scene(what: Scene | Snapshot | str | os.PathLike[str]) -> bool:
+    if isinstance(what, str | os.PathLike):
+        return Path(what).suffix in (".toml", ".par")
+    return isinstance(what, Scene)
 
 
 # What is set in it is set in the view.
