@@ -1,13 +1,12 @@
 #include "view/requests/page_requests.h"
 
-#include <sys/random.h>
-
 #include <array>
 #include <cstddef>
 #include <utility>
 
 #include "splotchcl/error.h"
 #include "splotchcl_embedded/view_page.h"
+#include "system/system.h"
 
 namespace splotchcl::view {
 namespace {
@@ -59,7 +58,7 @@ bool are_equal(std::string_view a, std::string_view b) {
 
 std::string make_token() {
   std::array<unsigned char, token_bytes> bytes;
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+  if (!of_system::fill_with_chance(bytes.data(), bytes.size())) {
     throw DataError("view: the system gave no random numbers, expected a token of 16 bytes");
   }
   constexpr const char* digits = "0123456789abcdef";
