@@ -158,7 +158,8 @@ void add_publish(CLI::App& app, Run& run, Console& console) {
   sub->add_option("SCENE", options->scene, wrapped("A scene file, or a snapshot, as for render"))
       ->required();
   sub->add_option("-o,--output", options->output,
-                  wrapped("The page (.html), or a folder for it; it needs no other file"))
+                  wrapped("The page (.html), or a folder for it; it needs no other file. Or splats "
+                          "for other viewers: .ply, .glb (glTF), .usda (OpenUSD)"))
       ->required()
       ->type_name("FILE");
   add_scene_options(*sub, *options);
@@ -173,8 +174,9 @@ void add_publish(CLI::App& app, Run& run, Console& console) {
       ->type_name("TEXT");
   sub->footer(
       "Light has to add up: what hides what lies behind it is refused.\n"
-      "Example:\n"
-      "  splotchcl publish snapshot_006 -o universe.html --title \"A small universe\"");
+      "Examples:\n"
+      "  splotchcl publish snapshot_006 -o universe.html --title \"A small universe\"\n"
+      "  splotchcl publish snapshot_006 -o universe.ply");
 }
 
 void add_convert(CLI::App& app, Run& run, Console& console) {

@@ -59,6 +59,7 @@ int run_publish(const PublishOptions& options, Console& console);
 struct ViewOptions : DrawOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  // 0: one that is free
+  std::string framed_in;   // the origin of another page that may show it
 };
 int run_view(const ViewOptions& options, Console& console);
 

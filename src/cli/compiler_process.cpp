@@ -4,7 +4,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdint>
@@ -16,6 +15,7 @@
 #include "common/child_process.h"
 #include "device/opencl/local_compiler.h"
 #include "splotchcl/error.h"
+#include "system/system.h"
 
 namespace splotchcl::cli {
 namespace {
@@ -53,7 +53,7 @@ class Socket {
  private:
   bool send_bytes(const char* bytes, std::size_t size) const {
     while (size > 0) {
-      const ssize_t sent = ::send(descriptor_, bytes, size, MSG_NOSIGNAL);
+      const ssize_t sent = of_system::send_without_signal(descriptor_, bytes, size, 0);
       if (sent < 0 && errno == EINTR) continue;
       if (sent <= 0) return false;
       bytes += sent;
@@ -85,7 +85,8 @@ class CompilerProcess : public ProgramCompiler {
  public:
   CompilerProcess(Socket own, const Socket& of_child)
       : socket_(std::move(own)),
-        process_({"/proc/self/exe", compiler_command}, {of_child.descriptor(), -1, -1}) {}
+        process_({of_system::own_program().string(), compiler_command},
+                 {of_child.descriptor(), -1, -1}) {}
 
   std::string compile(const ProgramToCompile& program) override {
     // Many times as long as the longest takes on a machine in use.
@@ -102,8 +103,8 @@ class CompilerProcess : public ProgramCompiler {
 };
 
 std::unique_ptr<ProgramCompiler> start_process() {
-  std::array<int, 2> ends{};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) return nullptr;
+  int ends[2] = {};
+  if (!of_system::connect_ends(ends)) return nullptr;
   Socket own(ends[0]), of_child(ends[1]);
   try {
     return std::make_unique<CompilerProcess>(std::move(own), of_child);

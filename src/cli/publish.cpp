@@ -6,12 +6,14 @@
 
 #include "cli/commands.h"
 #include "cli/compiler_process.h"
+#include "cli/publish_splats.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "finish/ticks.h"
 #include "open_scene/input_files.h"
 #include "publish/light_splats.h"
 #include "publish/merge_splats.h"
+#include "publish/splat_files.h"
 #include "publish/web_page.h"
 #include "splotchcl/error.h"
 #include "splotchcl/frame_drawer.h"
@@ -30,9 +32,10 @@ std::filesystem::path page_path(const std::filesystem::path& output) {
 }
 
 void check_page_path(const std::filesystem::path& path) {
-  if (path.extension() != ".html") {
+  if (path.extension() != ".html" && !is_splat_file(path)) {
     throw UsageError(fmt::format(
-        "--output: found {}, expected a folder, or a name that ends in .html", path.string()));
+        "--output: found {}, expected a folder, or a name that ends in .html, .ply, .glb or .usda",
+        path.string()));
   }
   if (path.has_parent_path() && path.filename() == "index.html") {
     std::error_code failed;
@@ -71,43 +74,19 @@ void measure_difference(const Image& page, const Image& exact, WebPage& of_page)
   of_page.largest_difference = largest / white;
 }
 
-}  // namespace
-
-int run_publish(const PublishOptions& options, Console& console) {
-  const std::filesystem::path path = page_path(options.output);
-  check_page_path(path);
-  const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
-  console.note_each_once(source.notes);
-  check_outputs({{path, "--output"}},
-                [&] { return files_read(options.scene, source.scene, *source.snapshot); });
-  const Scene scene = plain(source.scene);
-  const SnapshotInfo& snapshot = source.snapshot->info();
-
-  std::vector<std::string> notes = snapshot.notes;
-  const LoadProgress progress = [&](const std::string& what, double fraction) {
-    console.progress(what, fraction);
-  };
-  const Frame frame = load_frame(scene, *source.snapshot, notes, progress);
-  console.note_each_once(notes);
-  check_page(frame);
-
-  console.status(fmt::format("merging {} particles", particle_count(frame)));
-  const std::vector<LightSplat> particles = light_splats(frame);
-  const PackedSplats packed = pack(merge_splats(particles, options.splats));
-
-  WebPage page;
-  page.title = options.title.value_or(
-      scene.finish.title.text.empty() ? options.scene.stem().string() : scene.finish.title.text);
-  page.unit = length_unit(snapshot);
-  page.gamma = scene.image.gamma;
-  page.particles = particles.size();
+FrameDrawerOptions drawer_options(const PublishOptions& options) {
   FrameDrawerOptions of_drawer;
   of_drawer.device = options.device;
   of_drawer.by_reference = options.reference;
   of_drawer.tree = TreeUse::never;
   of_drawer.light = PictureLight::drawn;
   of_drawer.start_compiler = compiler_processes(nullptr);
-  FrameDrawer drawer(of_drawer);
+  return of_drawer;
+}
+
+void publish_page(const std::filesystem::path& path, const Scene& scene, const Frame& frame,
+                  const SnapshotInfo& snapshot, const PackedSplats& packed, WebPage page,
+                  FrameDrawer& drawer, Console& console) {
   console.status("drawing what the page is compared with");
   FinishSettings ignored;
   const Image exact = light_of(drawer, scene, as_on_page(frame), snapshot, page.finish);
@@ -126,6 +105,44 @@ int run_publish(const PublishOptions& options, Console& console) {
       "by {:.2g} of white (rms), {:.2g} at most",
       path.string(), packed.count(), page.particles, 1e-6 * static_cast<double>(text.size()),
       page.rms_difference, page.largest_difference));
+}
+
+}  // namespace
+
+int run_publish(const PublishOptions& options, Console& console) {
+  const std::filesystem::path path = page_path(options.output);
+  check_page_path(path);
+  const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));
+  console.note_each_once(source.notes);
+  check_outputs({{path, "--output"}},
+                [&] { return files_read(options.scene, source.scene, *source.snapshot); });
+  const bool is_page = !is_splat_file(path);
+  const Scene scene = is_page ? plain(source.scene) : as_compared(plain(source.scene));
+  const SnapshotInfo& snapshot = source.snapshot->info();
+
+  std::vector<std::string> notes = snapshot.notes;
+  const LoadProgress progress = [&](const std::string& what, double fraction) {
+    console.progress(what, fraction);
+  };
+  const Frame frame = load_frame(scene, *source.snapshot, notes, progress);
+  console.note_each_once(notes);
+  check_page(frame);
+
+  console.status(fmt::format("merging {} particles", particle_count(frame)));
+  const std::vector<LightSplat> particles = light_splats(frame);
+  const std::vector<LightSplat> splats = merge_splats(particles, options.splats);
+  FrameDrawer drawer(drawer_options(options));
+  if (!is_page) {
+    publish_splats(path, scene, frame, snapshot, splats, particles.size(), drawer, console);
+    return 0;
+  }
+  WebPage page;
+  page.title = options.title.value_or(
+      scene.finish.title.text.empty() ? options.scene.stem().string() : scene.finish.title.text);
+  page.unit = length_unit(snapshot);
+  page.gamma = scene.image.gamma;
+  page.particles = particles.size();
+  publish_page(path, scene, frame, snapshot, pack(splats), page, drawer, console);
   return 0;
 }
 

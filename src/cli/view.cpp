@@ -29,6 +29,10 @@ void add_view(CLI::App& app, Run& run, Console& console) {
                           "the network in, who can see the token on its way"))
       ->type_name("ADDRESS")
       ->capture_default_str();
+  sub->add_option("--frame-in", options->framed_in,
+                  wrapped("The page of a notebook or the like that may show this one in a frame, "
+                          "by its origin, such as http://localhost:8888"))
+      ->type_name("ORIGIN");
   add_live_options(*sub, *options);
   sub->footer(
       "Prints the page's address, which holds a secret token, and serves it until Ctrl-C.\n"
@@ -68,7 +72,8 @@ int run_view(const ViewOptions& options, Console& console) {
   std::vector<std::string> notes = source.notes;
   const std::vector<std::string>& of_snapshot = source.snapshot->info().notes;
   notes.insert(notes.end(), of_snapshot.begin(), of_snapshot.end());
-  view::LiveView page(std::move(source), {options.device, {}, options.address, options.port},
+  view::LiveView page(std::move(source),
+                      {options.device, {}, options.address, options.port, options.framed_in},
                       notes);
   console.note_each_once(notes);
   console.done("the page is at the address below until Ctrl-C");

@@ -15,6 +15,7 @@
 #include "common/reason.h"
 #include "scene/hash.h"
 #include "splotchcl/error.h"
+#include "system/system.h"
 
 namespace splotchcl {
 namespace {
@@ -54,7 +55,8 @@ std::optional<FileIdentity> file_identity(const std::filesystem::path& path) {
   identity.device = static_cast<std::uint64_t>(found.st_dev);
   identity.node = static_cast<std::uint64_t>(found.st_ino);
   identity.bytes = static_cast<std::uint64_t>(found.st_size);
-  identity.written_ns = ns_in_second * found.st_mtim.tv_sec + found.st_mtim.tv_nsec;
+  const timespec written = of_system::written_at(found);
+  identity.written_ns = ns_in_second * written.tv_sec + written.tv_nsec;
   return identity;
 }
 

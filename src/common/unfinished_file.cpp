@@ -17,6 +17,7 @@
 #include "common/reason.h"
 #include "common/unfinished_name.h"
 #include "splotchcl/error.h"
+#include "system/system.h"
 
 namespace splotchcl {
 namespace {
@@ -56,8 +57,7 @@ class NoPipeSignal {
     ::pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
   }
   ~NoPipeSignal() {
-    const timespec at_once = {};
-    ::sigtimedwait(&pipe_, nullptr, &at_once);  // one that has come meanwhile
+    of_system::drop_pipe_signal();  // one that has come meanwhile
     ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
   NoPipeSignal(const NoPipeSignal&) = delete;

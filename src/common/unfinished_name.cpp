@@ -9,49 +9,20 @@
 #include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <fstream>
 #include <optional>
 #include <random>
-#include <sstream>
 #include <string_view>
 
 #include "common/folders.h"
 #include "scene/hash.h"
+#include "system/system.h"
 
 namespace splotchcl {
 namespace {
 
-// Empty where it cannot be read.
-std::string content_of(const std::string& path) {
-  std::ifstream file(path);
-  std::string content;
-  std::getline(file, content, '\0');  // a program's name may have ends of lines in it
-  return content;
-}
-
-// The 22nd field of /proc/PID/stat; 0: cannot be read. The second is the program's name in
-// parentheses, which may hold spaces and parentheses of its own.
-std::uint64_t start_of(pid_t process) {
-  const std::string fields = content_of(fmt::format("/proc/{}/stat", process));
-  const std::size_t name_end = fields.rfind(')');
-  if (name_end == std::string::npos) return 0;
-  std::istringstream rest(fields.substr(name_end + 1));
-  std::string skipped;
-  for (int field = 3; field < 22; ++field)
-    rest >> skipped;
-  std::uint64_t start = 0;
-  return rest >> start ? start : 0;
-}
-
 std::string host_name() {
   std::array<char, 256> name = {};
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
-// Containers with numbers of processes of their own.
-std::string process_space() {
-  std::array<char, 64> name = {};
-  return ::readlink("/proc/self/ns/pid", name.data(), name.size() - 1) > 0 ? name.data() : "";
 }
 
 // Readable, and different also for machines whose names are alike: "localhost".
@@ -60,8 +31,8 @@ std::string name_of_machine() {
   const std::string host = host_name();
   WordHash hash;
   hash.add(host);
-  hash.add(process_space());
-  hash.add(content_of("/etc/machine-id"));
+  hash.add(of_system::process_space());
+  hash.add(of_system::machine_identity());
   std::string readable = host.substr(0, readable_letters);
   const auto is_plain = [](char letter) {
     return (letter >= '0' && letter <= '9') || (letter >= 'a' && letter <= 'z') ||
@@ -75,7 +46,7 @@ std::string name_of_machine() {
 }  // namespace
 
 WritingProcess WritingProcess::own() {
-  return {::getpid(), start_of(::getpid()), name_of_machine()};
+  return {::getpid(), of_system::start_of_process(::getpid()), name_of_machine()};
 }
 
 bool WritingProcess::is_of_this_machine() const {
@@ -84,7 +55,7 @@ bool WritingProcess::is_of_this_machine() const {
 
 bool WritingProcess::is_running() const {
   if (::kill(number, 0) != 0 && errno == ESRCH) return false;
-  const std::uint64_t start_now = start == 0 ? 0 : start_of(number);
+  const std::uint64_t start_now = start == 0 ? 0 : of_system::start_of_process(number);
   return start_now == 0 || start_now == start;
 }
 

@@ -1,29 +1,16 @@
 #include "modules/module_file.h"
 
-#include <cstdint>
-#include <cstdio>
-#include <fstream>
 #include <optional>
 #include <system_error>
 #include <vector>
 
 #include "splotchcl/error.h"
+#include "system/system.h"
 
 namespace splotchcl {
 namespace {
 
 namespace fs = std::filesystem;
-
-// "7f0c8000-7f0c9000 r-xp 00000000 08:01 1234   /usr/lib/libsplotchcl.so.0.1": the name where the
-// address lies between both.
-std::optional<std::string> name_around(const std::string& mapping, std::uintptr_t address) {
-  unsigned long long first = 0, end = 0;
-  if (std::sscanf(mapping.c_str(), "%llx-%llx", &first, &end) != 2) return std::nullopt;
-  if (address < first || address >= end) return std::nullopt;
-  const std::size_t name = mapping.find('/');
-  if (name == std::string::npos) return std::nullopt;
-  return mapping.substr(name);
-}
 
 // If `folder` ends with `end`, what is before that.
 std::optional<fs::path> without_end(fs::path folder, fs::path end) {
@@ -37,17 +24,12 @@ std::optional<fs::path> without_end(fs::path folder, fs::path end) {
 
 }  // namespace
 
-// The system's own table, whose names are whole: the loader's are as a caller wrote them, that of a
-// program what its first argument claims, and both may begin at a folder that is no longer current.
 fs::path file_mapped_at(const void* address) {
-  std::ifstream mappings("/proc/self/maps");
-  for (std::string mapping; std::getline(mappings, mapping);) {
-    const auto name = name_around(mapping, reinterpret_cast<std::uintptr_t>(address));
-    if (name) return *name;
-  }
+  const fs::path file = of_system::file_around(address);
+  if (!file.empty()) return file;
   throw DataError(
-      "/proc/self/maps does not say where splotchcl lies, so that its modules are not found; "
-      "expected /proc to be mounted");
+      "the system does not say where splotchcl lies, so that its modules are not found; expected "
+      "/proc to be mounted, or the program to be started by its whole path");
 }
 
 std::vector<fs::path> module_places(const fs::path& own_folder) {

@@ -7,12 +7,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <optional>
 #include <cerrno>
-#include <fstream>
 #include <new>
 #include <system_error>
 
 #include "splotchcl/error.h"
+#include "system/system.h"
 
 namespace splotchcl {
 namespace {
@@ -30,13 +31,6 @@ void say(int descriptor, char what, const std::string& text = "") {
   }
 }
 
-// Of address space, which is what can be limited.
-std::uint64_t bytes_in_use() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
-}
-
 // Crashes are the child's own: the caller's handlers, which may tidy up after the caller, stay out
 // of it, and no core is written.
 void limit_child(const ChildLimits& limits) {
@@ -48,8 +42,10 @@ void limit_child(const ChildLimits& limits) {
   ::alarm(static_cast<unsigned>(limits.seconds));
   const rlimit no_core = {0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  if (limits.memory_bytes == 0) return;
-  const auto most = static_cast<rlim_t>(bytes_in_use() + limits.memory_bytes);
+  // Address space is what can be limited.
+  const std::optional<std::uint64_t> in_use = of_system::address_space_in_use();
+  if (limits.memory_bytes == 0 || !in_use) return;
+  const auto most = static_cast<rlim_t>(*in_use + limits.memory_bytes);
   const rlimit memory = {most, most};
   ::setrlimit(RLIMIT_AS, &memory);
 }
@@ -128,8 +124,8 @@ void run_in_child(const std::string& name, const std::function<void()>& task,
     throw UsageError("ChildLimits: found " + std::to_string(limits.seconds) +
                      " seconds, expected at least 1");
   }
-  std::array<int, 2> ends;
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_to_start(name);
+  int ends[2] = {};
+  if (!of_system::open_pipe(ends)) fail_to_start(name);
   const pid_t child = ::fork();
   if (child == 0) be_child(ends[1], task, limits);
   ::close(ends[1]);

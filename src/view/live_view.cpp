@@ -14,7 +14,8 @@ struct LiveView::State {
   State(SceneWithSnapshot source, const LiveViewOptions& options, std::vector<std::string>& notes)
       : token(make_token()),
         pages(std::move(source), {options.device, options.shape, {}}, notes),
-        server(options.address, options.port, AccessRules(token, options.address), pages) {}
+        server(options.address, options.port,
+               AccessRules(token, options.address, options.framed_in), pages) {}
   // What is drawn at the end is still sent by the server.
   ~State() { pages.stop(); }
   State(const State&) = delete;

@@ -16,6 +16,7 @@ struct LiveViewOptions {
   CompositeShape shape = CompositeShape::automatic;
   std::string address = "127.0.0.1";  // what the server is bound to
   std::uint16_t port = 0;             // 0: one that is free
+  std::string framed_in = {};         // as AccessRules has it
 };
 
 // A scene that is looked at in a browser (docs/view.md).

@@ -177,9 +177,9 @@ Response plain_response(http::status status, std::string text) {
   return response;
 }
 
-// The page loads nothing from elsewhere, and stands in no other page.
+// The page loads nothing from elsewhere, and stands in no other page but the one that it may.
 template <class AnyResponse>
-void set_policies(AnyResponse& response, std::string_view host) {
+void set_policies(AnyResponse& response, std::string_view host, const std::string& framed_in) {
   const std::string sockets = "ws://" + std::string(host);
   response.set(http::field::server, "splotchcl");
   response.set(http::field::cache_control, "no-store");
@@ -187,7 +187,8 @@ void set_policies(AnyResponse& response, std::string_view host) {
       "Content-Security-Policy",
       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
       "connect-src 'self' " +
-          sockets + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
+          sockets + "; base-uri 'none'; form-action 'none'; frame-ancestors " +
+          (framed_in.empty() ? "'none'" : framed_in));
   response.set("Referrer-Policy", "no-referrer");
   response.set("X-Content-Type-Options", "nosniff");
   response.set("Cross-Origin-Resource-Policy", "same-origin");
@@ -334,7 +335,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   template <class AnyResponse>
   void send(AnyResponse response) {
     const Request& request = parser_->get();
-    set_policies(response, view_of(request[http::field::host]));
+    set_policies(response, view_of(request[http::field::host]), shared_.rules.framed_in());
     response.keep_alive(count_ && request.keep_alive());
     if (request.method() != http::verb::head) response.prepare_payload();
     const auto kept = std::make_shared<AnyResponse>(std::move(response));

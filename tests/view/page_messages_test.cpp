@@ -251,6 +251,20 @@ TEST(Access, IsNotForOtherNamesThatLeadHere) {
     EXPECT_FALSE(lets_in({page, host, ""})) << host;
 }
 
+TEST(Access, IsForTheOriginOfThePageAroundThisOne) {
+  const AccessRules rules(token, "127.0.0.1", "https://hub.example:8888");
+  for (const char* const origin : {"http://127.0.0.1:80", "https://hub.example:8888"})
+    EXPECT_NO_THROW(rules.check_socket({page, "127.0.0.1:80", origin})) << origin;
+  for (const char* const origin : {"https://hub.example", "http://hub.example:8888", ""})
+    EXPECT_THROW(rules.check_socket({page, "127.0.0.1:80", origin}), AccessDenied) << origin;
+}
+
+TEST(Access, RefusesWhatIsNoOrigin) {
+  for (const char* const text : {"hub.example", "http://", "http://a/b", "http://a; script-src *",
+                                 "ftp://a", "http://a\r\nX: y", "*", "null"})
+    EXPECT_THROW(AccessRules(token, "127.0.0.1", text), UsageError) << text;
+}
+
 TEST(Access, IsForTheAddressThatIsListenedOn) {
   EXPECT_TRUE(lets_in({page, "192.0.2.7:80", ""}, "192.0.2.7"));
   EXPECT_TRUE(lets_in({page, "[2001:db8::7]:80", ""}, "2001:db8::7"));

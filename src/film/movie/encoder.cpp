@@ -19,6 +19,7 @@
 #include "common/words.h"
 #include "film/movie/codecs.h"
 #include "splotchcl/error.h"
+#include "system/system.h"
 
 namespace splotchcl {
 namespace {
@@ -136,9 +137,10 @@ std::string one_line(std::string text) {
 std::uint64_t state_of(const std::filesystem::path& path) {
   struct stat status = {};
   if (::stat(path.c_str(), &status) != 0) return 0;
+  const timespec written = of_system::written_at(status);
   return static_cast<std::uint64_t>(status.st_size) * 1000003U +
-         static_cast<std::uint64_t>(status.st_mtim.tv_sec) * 1000000007U +
-         static_cast<std::uint64_t>(status.st_mtim.tv_nsec);
+         static_cast<std::uint64_t>(written.tv_sec) * 1000000007U +
+         static_cast<std::uint64_t>(written.tv_nsec);
 }
 
 // The last "frame=N" of what ffmpeg's -progress writes.
@@ -232,7 +234,7 @@ Encoder::Encoder(const std::filesystem::path& path, const MovieSettings& setting
   // A socket rather than a pipe: one whose other end is gone answers with an error, not with
   // a signal.
   int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+  if (!of_system::connect_ends(ends)) {
     throw DataError("no connection to ffmpeg: " + reason(errno));
   }
   input_ = ends[0];
@@ -256,7 +258,7 @@ void Encoder::add(const std::vector<std::uint8_t>& picture) {
   std::size_t left = picture.size();
   while (left > 0) {
     wait_until_it_reads();
-    const ssize_t sent = ::send(input_, next, left, MSG_NOSIGNAL | MSG_DONTWAIT);
+    const ssize_t sent = of_system::send_without_signal(input_, next, left, MSG_DONTWAIT);
     if (sent < 0 && (errno == EINTR || errno == EAGAIN || errno == EWOULDBLOCK)) continue;
     if (sent < 0) end_in_failure();
     next += sent;

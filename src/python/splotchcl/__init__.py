@@ -4,8 +4,8 @@
 >>> splotchcl.render("snapshot_006").save("a.png")
 
 `render` draws, `suggest` chooses a `Scene`, `Particles` takes one's own arrays, `Snapshot` opens
-a file, `column` makes a map in physical units, `movie` a film, `reference` says how exact a picture
-is. Errors are of `Error`, with one line each: `UsageError` is a ValueError, `DataError` an OSError,
+a file, `column` makes a map in physical units, `movie` a film, `View` is the live view in a notebook,
+`reference` says how exact a picture is. Errors are of `Error`, with one line each: `UsageError` is a ValueError, `DataError` an OSError,
 `DeviceError` a RuntimeError.
 """
 
@@ -29,6 +29,7 @@ from ._render import Renderer, devices, reference, render, suggest
 from ._scene import Scene, UnknownKey
 from ._sources import Particles, ParticleType, Snapshot
 from ._statistics import Histogram, Profile, histogram, profile
+from ._view import View
 
 __all__ = [
     "DataError",
@@ -47,6 +48,7 @@ __all__ = [
     "Snapshot",
     "UnknownKey",
     "UsageError",
+    "View",
     "__version__",
     "column",
     "devices",

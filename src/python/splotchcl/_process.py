@@ -12,11 +12,16 @@ def run_python(code: str, *arguments: str) -> int:
 
     Python would look for them in the current folder first, which may be a stranger's.
     """
-    folders = [os.path.abspath(folder) for folder in sys.path if folder]
     return subprocess.run(
         [sys.executable, "-c", code, *arguments],
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(folders)},
+        env=environment_with_modules(),
         cwd=os.path.abspath(os.sep),
         capture_output=True,
         check=False,
     ).returncode
+
+
+def environment_with_modules() -> dict[str, str]:
+    """In which another Python finds the modules that this one finds."""
+    folders = [os.path.abspath(folder) for folder in sys.path if folder]
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(folders)}

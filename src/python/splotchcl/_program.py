@@ -9,19 +9,20 @@ from pathlib import Path
 
 from ._opencl import choose_packaged_opencl
 
+PROGRAM = Path(__file__).parent / "bin" / "splotchcl"
+
 
 def main() -> None:
     """Becomes the program."""
-    program = Path(__file__).parent / "bin" / "splotchcl"
-    if not program.exists():
+    if not PROGRAM.exists():
         raise SystemExit(
-            f"splotchcl: this package has no program ({program}); a wheel of `scripts/wheel "
+            f"splotchcl: this package has no program ({PROGRAM}); a wheel of `scripts/wheel "
             "--bundle` has one"
         )
 
     def has_devices() -> bool:
-        command = [str(program), "devices"]
+        command = [str(PROGRAM), "devices"]
         return subprocess.run(command, capture_output=True, check=False).returncode == 0
 
     choose_packaged_opencl(has_devices)
-    os.execv(program, ["splotchcl", *sys.argv[1:]])
+    os.execv(PROGRAM, ["splotchcl", *sys.argv[1:]])

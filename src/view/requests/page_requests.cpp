@@ -1,13 +1,12 @@
 #include "view/requests/page_requests.h"
 
-#include <sys/random.h>
-
 #include <array>
 #include <cstddef>
 #include <utility>
 
 #include "splotchcl/error.h"
 #include "splotchcl_embedded/view_page.h"
+#include "system/system.h"
 
 namespace splotchcl::view {
 namespace {
@@ -33,6 +32,19 @@ bool is_number_of_address(std::string_view name) {
   return !name.empty() && name.find_first_not_of("0123456789.") == std::string_view::npos;
 }
 
+// "https://name:port" or the like, and nothing that would end a header or a policy.
+bool is_origin(std::string_view text) {
+  const std::string_view scheme = "http", end = "://";
+  if (text.substr(0, scheme.size()) != scheme) return false;
+  text.remove_prefix(scheme.size());
+  if (!text.empty() && text.front() == 's') text.remove_prefix(1);
+  if (text.substr(0, end.size()) != end) return false;
+  text.remove_prefix(end.size());
+  constexpr const char* letters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-_:[]";
+  return !text.empty() && text.find_first_not_of(letters) == std::string_view::npos;
+}
+
 // Takes as long wherever they differ, so that its time tells nothing.
 bool are_equal(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
@@ -46,7 +58,7 @@ bool are_equal(std::string_view a, std::string_view b) {
 
 std::string make_token() {
   std::array<unsigned char, token_bytes> bytes;
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) {
+  if (!of_system::fill_with_chance(bytes.data(), bytes.size())) {
     throw DataError("view: the system gave no random numbers, expected a token of 16 bytes");
   }
   constexpr const char* digits = "0123456789abcdef";
@@ -58,12 +70,18 @@ std::string make_token() {
   return token;
 }
 
-AccessRules::AccessRules(std::string token, std::string address)
-    : token_(std::move(token)), address_(std::move(address)) {}
+AccessRules::AccessRules(std::string token, std::string address, std::string framed_in)
+    : token_(std::move(token)), address_(std::move(address)), framed_in_(std::move(framed_in)) {
+  if (!framed_in_.empty() && !is_origin(framed_in_)) {
+    throw UsageError("--frame-in: found " + framed_in_ +
+                     ", expected a page's origin, such as http://localhost:8888");
+  }
+}
 
 std::string_view AccessRules::check_request(const RequestSource& source) const {
   check_host(source.host);
-  if (!source.origin.empty() && source.origin != "http://" + std::string(source.host)) {
+  const bool is_own = source.origin == "http://" + std::string(source.host);
+  if (!source.origin.empty() && !is_own && source.origin != framed_in_) {
     throw AccessDenied{"the Origin is another page's"};
   }
   return check_token(source.target);

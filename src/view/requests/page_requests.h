@@ -23,18 +23,23 @@ struct RequestSource {
 //           a page that made its own name lead here is refused. Where the server is bound to all
 //           addresses, any that is written in numbers will do. The port may be another, since it
 //           is another behind a forwarded port.
-//   Origin  where it is sent, it must be "http://" and the Host, to the letter. A socket must send
-//           it, as every browser does.
+//   Origin  where it is sent, it must be "http://" and the Host, to the letter, or that of the page
+//           that may show this one in a frame: what forwards ports for it keeps it. A socket must
+//           send it, as every browser does.
 //   token   the first part of the target.
 class AccessRules {
  public:
-  // `address`: what the server is bound to.
-  AccessRules(std::string token, std::string address);
+  // `address`: what the server is bound to. `framed_in`: the origin of the only other page that may
+  // show this one in a frame, "http://localhost:8888"; empty: there is none. Throws UsageError for
+  // what is no origin.
+  AccessRules(std::string token, std::string address, std::string framed_in = "");
 
   // What is asked for below the token, "app.js"; empty for the page itself. Throws AccessDenied.
   std::string_view check_request(const RequestSource& source) const;
   // The same for a socket.
   std::string_view check_socket(const RequestSource& source) const;
+
+  const std::string& framed_in() const { return framed_in_; }
 
  private:
   void check_host(std::string_view host) const;
@@ -42,6 +47,7 @@ class AccessRules {
 
   std::string token_;
   std::string address_;
+  std::string framed_in_;
 };
 
 // Why a request is refused, for the one who sent it; says nothing of the token.

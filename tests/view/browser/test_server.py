@@ -69,6 +69,15 @@ def test_other_hosts_and_origins_are_refused(view):
     assert PageSocket(opened, host="evil.example").status == 403
 
 
+def test_only_the_page_that_may_shows_this_one_in_a_frame(view, snapshot):
+    notebook = "http://localhost:8888"
+    for opened, ancestors in ((view(), "'none'"), (view(snapshot, "--frame-in", notebook), notebook)):
+        headers = get(opened, f"/{opened.token}/")[2]
+        assert headers["Content-Security-Policy"].endswith(f"frame-ancestors {ancestors}")
+        is_known = ancestors == notebook
+        assert PageSocket(opened, origin=notebook).status == (101 if is_known else 403)
+
+
 def test_requests_that_are_none_do_not_end_the_server(view):
     opened = view()
     for request in (b"\0\1\2\r\n\r\n", b"GET " + b"x" * 100000, b"POST / HTTP/1.1\r\n\r\n",

@@ -6,9 +6,11 @@ import {showProblem} from './elements.js';
 import {Film} from './film.js';
 import {FilmDialog} from './film_dialog.js';
 import {FilmPlan} from './film_plan.js';
+import {FrameLink} from './frame_link.js';
 import {Gestures} from './gestures.js';
 import {KeptViews} from './kept_views.js';
 import {Link} from './link.js';
+import {ofBrowser, ofTab} from './memory.js';
 import {Picture} from './picture.js';
 import {ProbeTool} from './probe_tool.js';
 import {SaveDialog} from './save_dialog.js';
@@ -23,15 +25,16 @@ const memory = `splotchcl ${location.pathname}`;
 
 function showTheme(theme) {
   document.documentElement.dataset.theme = theme;
-  localStorage.setItem('splotchcl theme', theme);
+  ofBrowser.setItem('splotchcl theme', theme);
 }
-showTheme(localStorage.getItem('splotchcl theme') ?? 'dark');
+showTheme(ofBrowser.getItem('splotchcl theme') ?? 'dark');
 
 class App {
   constructor() {
     this.picture = new Picture(byId('picture'));
     this.store = null;
     this.link = new Link();
+    this.frame = new FrameLink(this.link, (text) => this.showError(text));
     this.link.addEventListener('opened', ({detail}) => this.open(detail));
     this.link.addEventListener('frame', ({detail}) => this.showFrame(detail));
     this.link.addEventListener('error', ({detail}) => this.showError(detail.text));
@@ -51,7 +54,7 @@ class App {
   build(opened) {
     byId('name').textContent = opened.name;
     document.title = `${opened.name} – splotchcl view`;
-    this.store = new Store(opened, stateInAddress() ?? JSON.parse(sessionStorage.getItem(memory)));
+    this.store = new Store(opened, stateInAddress() ?? JSON.parse(ofTab.getItem(memory)));
     this.palettes = new Map(opened.palettes.map(({name, colors}) => [name, colors]));
     this.gestures = new Gestures(byId('view'), this.picture, this.store, (place) => this.pick(place));
     this.probe = new ProbeTool(byId('probe'), byId('probed'), byId('view'), this.picture, this.store,
@@ -74,6 +77,7 @@ class App {
     }
     this.listen();
     this.show();
+    this.frame.open(this.store);
   }
 
   // Anew where components come and go.
@@ -191,7 +195,7 @@ class App {
 
   sendState() {
     const state = this.store.differences();
-    sessionStorage.setItem(memory, JSON.stringify({...state, known: this.store.known}));
+    ofTab.setItem(memory, JSON.stringify({...state, known: this.store.known}));
     this.link.sendState({...state, moving: this.store.isMoving});
   }
 
@@ -228,6 +232,7 @@ class App {
     // A screen reader is told of what stays.
     if (header.stage !== 'exact') return;
     this.filmDialog.secondsPerFrame = header.seconds;
+    this.frame.tellScene().catch((error) => this.showError(error.message));
     byId('error').textContent = header.notes.join('\n');
     this.say(`Exact picture, drawn in ${header.seconds.toFixed(2)} s`);
   }

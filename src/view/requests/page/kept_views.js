@@ -1,6 +1,7 @@
 // States that are kept as they are, each with its picture; and another one beside the state, to
 // compare the two.
 import {element} from './elements.js';
+import {ofTab} from './memory.js';
 
 const thumbnail = {width: 112, height: 70};
 const mostKept = 24;
@@ -13,7 +14,7 @@ export class KeptViews {
     this.store = store;
     this.picture = picture;
     this.memory = memory;
-    this.kept = JSON.parse(sessionStorage.getItem(memory)) ?? [];
+    this.kept = JSON.parse(ofTab.getItem(memory)) ?? [];
     this.other = null;
     this.isB = false;
     this.list = element('ul', {'aria-label': 'Kept views'});
@@ -48,7 +49,7 @@ export class KeptViews {
   save(kept) {
     if (kept.length > mostKept) return this.refuse(full);
     try {
-      sessionStorage.setItem(this.memory, JSON.stringify(kept));
+      ofTab.setItem(this.memory, JSON.stringify(kept));
     } catch {
       return this.refuse(full);
     }

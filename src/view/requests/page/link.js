@@ -14,7 +14,7 @@ export class Link extends EventTarget {
 
   connect() {
     const address = new URL('live', document.baseURI);
-    address.protocol = 'ws:';
+    address.protocol = location.protocol === 'https:' ? 'wss:' : 'ws:';
     this.socket = new WebSocket(address);
     this.socket.binaryType = 'arraybuffer';
     this.socket.onmessage = (event) => this.take(event.data);

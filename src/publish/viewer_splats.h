@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "publish/light_splats.h"
+#include "splotchcl/finish.h"
+#include "splotchcl/frame.h"
+
+namespace splotchcl {
+
+// A splat as viewers of 3D Gaussian splatting have it: a color, and one opacity with which it lies
+// over what is behind it. Lengths are halves of the picture's width at the look-at point.
+struct ViewerSplat {
+  std::array<float, 3> place{};  // right, down and forward from the look-at point
+  float deviation = 0;           // the standard deviation, > 0
+  std::array<float, 3> color{};  // display values, 0 to 1
+  float opacity = 0;             // in its middle, 0 to 1
+};
+
+// How light becomes opacity: 1 - exp(-(gain m)^exponent), with m the brightest channel over white.
+// A lone splat has the display's brightness with the exponent 1 / gamma; where many overlap, light
+// adds up with the exponent 1.
+struct LightToOpacity {
+  double gain = 1;
+  double exponent = 1;
+  double hue_at = 0.125;  // of white: dim splats have the hue that this much of their light shows
+};
+
+// What displays make of light: exposure, white, tone and what follows them, and gamma.
+struct DisplayLight {
+  FinishSettings finish;  // with exposure and white
+  double gamma = 1;
+};
+
+// Display values, 0 to 1, of linear light.
+Image displayed(Image light, const DisplayLight& display);
+
+// In the order of the splats.
+std::vector<ViewerSplat> viewer_splats(const std::vector<LightSplat>& splats, const Frame& frame,
+                                       const DisplayLight& display, const LightToOpacity& opacity);
+
+}  // namespace splotchcl
