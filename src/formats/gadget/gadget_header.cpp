@@ -24,6 +24,10 @@ void check_same_snapshot(const GadgetHeader& first, const GadgetHeader& other,
   if (other.table_masses != first.table_masses) difference = "mass table";
   if (other.total_counts != first.total_counts) difference = "total number of particles";
   if (other.files != first.files) difference = "number of files";
+  if (other.redshift != first.redshift) difference = "redshift";
+  if (other.box_size.has_value() != first.box_size.has_value() ||
+      (first.box_size && other.box_size->text() != first.box_size->text()))
+    difference = "box";
   if (other.time != first.time) difference = "time";
   if (difference == nullptr) return;
   throw DataError(

@@ -140,7 +140,7 @@ TEST_F(TextTable, UnitsInAHeaderOfWhiteSpaceBelongToTheNameBeforeThem) {
 }
 
 TEST_F(TextTable, BracketsThatDoNotCloseAreNoUnits) {
-  EXPECT_THAT(refusal_of("x [kpc y z\n1 2 3\n"), HasSubstr("text, but no table"));
+  EXPECT_THAT(refusal_of("x [kpc y z\n1 2 3\n"), HasSubstr("names above has 4"));
   EXPECT_THAT(refusal_of("[ ( [\n1 2 3\n"), HasSubstr("no positions"));
 }
 
