@@ -20,19 +20,29 @@ namespace {
 struct Steps {
   std::size_t column = 0;
   std::string name;
-  std::vector<double> values;  // rising
+  std::vector<double> values;  // in their order in time
 };
 
-std::optional<std::size_t> find_column_of_steps(const Table& table) {
+// Whether a column of this name tells steps; others do where particles are there again and again.
+bool tells_steps(const std::string& name) {
   constexpr std::array<const char*, 9> names = {"step",    "snapshot",  "snap",
                                                 "snapnum", "snap_num",  "snapshot_number",
                                                 "frame",   "iteration", "time"};
-  for (const char* const name : names) {
-    for (std::size_t i = 0; i < table.columns().size(); ++i) {
-      const TableColumn& column = table.columns()[i];
-      if (column.values_per_row == 1 && equal_ignoring_case(split_unit(column.name).name, name))
-        return i;
-    }
+  return std::any_of(names.begin(), names.end(),
+                     [&name](const char* known) { return equal_ignoring_case(name, known); });
+}
+
+bool may_tell_steps(const std::string& name) {
+  constexpr std::array<const char*, 4> names = {"t", "redshift", "scale", "scale_factor"};
+  return std::any_of(names.begin(), names.end(),
+                     [&name](const char* known) { return equal_ignoring_case(name, known); });
+}
+
+template <class Is>
+std::optional<std::size_t> find_column(const Table& table, Is&& is) {
+  for (std::size_t i = 0; i < table.columns().size(); ++i) {
+    const TableColumn& column = table.columns()[i];
+    if (column.values_per_row == 1 && is(split_unit(column.name).name)) return i;
   }
   return std::nullopt;
 }
@@ -50,28 +60,37 @@ std::vector<double> different_values(const Table& table, std::size_t column) {
   return {values.begin(), values.end()};
 }
 
+bool are_ids(const std::string& name) {
+  return canonical_field_name(name) == "id" || equal_ignoring_case(name, "pid") ||
+         equal_ignoring_case(name, "particle_id");
+}
+
+enum class Particles { unknown, once, repeated };
+
 // A table of a light cone says of each particle in which step it was, and has it once.
-bool are_all_different(const Table& table) {
-  for (std::size_t i = 0; i < table.columns().size(); ++i) {
-    const TableColumn& column = table.columns()[i];
-    const bool are_ids =
-        column.values_per_row == 1 && canonical_field_name(split_unit(column.name).name) == "id";
-    if (!are_ids) continue;
-    auto ids = table.integers(i);
-    if (!ids) return false;
-    std::sort(ids->begin(), ids->end());
-    return std::adjacent_find(ids->begin(), ids->end()) == ids->end();
-  }
-  return false;
+Particles find_repeated(const Table& table) {
+  const auto column = find_column(table, are_ids);
+  auto ids = column ? table.integers(*column) : std::nullopt;
+  if (!ids) return Particles::unknown;
+  std::sort(ids->begin(), ids->end());
+  const bool are_different = std::adjacent_find(ids->begin(), ids->end()) == ids->end();
+  return are_different ? Particles::once : Particles::repeated;
 }
 
 std::optional<Steps> find_steps_in_rows(const Table& table) {
-  const auto column = find_column_of_steps(table);
-  if (!column) return std::nullopt;
+  auto column = find_column(table, tells_steps);
+  const bool is_sure = column.has_value();
+  if (!is_sure) column = find_column(table, may_tell_steps);
+  if (!column || (!is_sure && find_column(table, are_ids) == std::nullopt)) return std::nullopt;
   std::vector<double> values = different_values(table, *column);
-  if (values.size() < 2 || table.rows() < 2 * values.size() || are_all_different(table))
+  if (values.size() < 2 || table.rows() < 2 * values.size()) return std::nullopt;
+  const Particles particles = find_repeated(table);
+  if (particles == Particles::once || (!is_sure && particles == Particles::unknown))
     return std::nullopt;
-  return Steps{*column, split_unit(table.columns()[*column].name).name, std::move(values)};
+  const std::string name = split_unit(table.columns()[*column].name).name;
+  // Of redshifts the last in time is the lowest.
+  if (equal_ignoring_case(name, "redshift")) std::reverse(values.begin(), values.end());
+  return Steps{*column, name, std::move(values)};
 }
 
 std::string name_of(const Steps& steps, double value) {
@@ -183,6 +202,7 @@ std::unique_ptr<const Table> with_one_step(std::unique_ptr<const Table> table,
   if (!step) return table;
   if (wanted.empty()) info.notes.push_back(note_on(*steps, info.files.front().string()));
   if (equal_ignoring_case(steps->name, "time")) info.time = *step;
+  if (equal_ignoring_case(steps->name, "redshift")) info.redshift = *step;
   return std::make_unique<StepTable>(std::move(table), *steps, *step);
 }
 

@@ -9,7 +9,7 @@
 namespace splotchcl {
 
 // Steps in time that a table holds one below the other, as a column "step" or "time" tells:
-// "step=0", "step=1", ... in rising order. None where no particle is there twice.
+// "step=0", "step=1", ... in their order. None where no particle is there twice.
 std::vector<std::string> steps_in(const Table& table);
 
 // The table of one step: of `wanted`, "step=3", or where that is empty of the last, with a note.

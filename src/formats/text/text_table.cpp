@@ -133,13 +133,21 @@ void TextTable::count_rows() {
 // all of whole numbers, of which the first is that of the rows.
 void TextTable::leave_out_line_of_counts(std::vector<std::string>& notes) {
   const bool counts_rows = parse_cell(layout_.cells.front()) == static_cast<double>(rows_ - 1);
-  if (!counts_rows || !are_whole(layout_.cells)) return;
+  if (!counts_rows || !are_whole({layout_.cells.front()})) return;
   TextLines lines = first_lines();
   lines.next();
   const std::uint64_t number = lines.number();
   while (lines.next() && is_comment_line(lines.line())) {
   }
-  if (are_whole(cells_of(lines, layout_.format))) return;
+  const std::vector<std::string_view> next = cells_of(lines, layout_.format);
+  if (are_whole({next.front()})) return;
+  if (!are_whole(layout_.cells)) {
+    notes.push_back(fmt::format(
+        "line {} is taken for a particle; if its {} is the number of rows, leave it out with "
+        "read.skip_lines",
+        number, rows_ - 1));
+    return;
+  }
   notes.push_back(
       fmt::format("line {} is left out: it tells the number of rows, {}", number, rows_ - 1));
   layout_.first_row = lines.start();

@@ -70,6 +70,20 @@ TEST_F(TableOfSteps, MayTellItsTimes) {
   EXPECT_EQ(open_snapshot(path_ / "Time=0.5")->info().time, 0.5);
 }
 
+TEST_F(TableOfSteps, MayTellRedshiftsWhereParticlesAreThereAgain) {
+  const std::string rows = "3 1 1 1 1\n3 2 2 2 2\n0 1 3 3 3\n0 2 4 4 4\n";
+  write("redshift id x y z\n" + rows);
+  EXPECT_THAT(absolute_positions(*open_snapshot(path_), 0), ElementsAre(3, 3, 3, 4, 4, 4));
+  EXPECT_EQ(open_snapshot(path_)->info().redshift, 0);
+  EXPECT_EQ(open_snapshot(path_ / "redshift=3")->info().redshift, 3);
+  for (const std::string header : {"t pid x y z\n", "scale id x y z\n"}) {
+    write(header + rows);
+    EXPECT_THAT(absolute_positions(*open_snapshot(path_), 0), ElementsAre(1, 1, 1, 2, 2, 2));
+  }
+  write("t w x y z\n" + rows);
+  EXPECT_EQ(open_snapshot(path_)->info().types.front().count, 4U);
+}
+
 // Of a light cone each particle has its own; of one state all have the same.
 TEST_F(TableOfSteps, IsNoneWhereNoParticleIsThereTwice) {
   for (const std::string text : {"snapshot id x y z\n1 1 1 1 1\n1 2 2 2 2\n2 3 3 3 3\n2 4 4 4 4\n",

@@ -44,6 +44,16 @@ TEST_F(TextForm, CountsBeforeTheNamesAreLeftOut) {
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("the first row is line 4")));
 }
 
+TEST_F(TextForm, ALineThatMayTellTheNumberOfRowsIsSaid) {
+  const auto snapshot = open("2 1 0.5\n1.5 2 3\n4.5 5 6\n", {{"x", "y", "z"}});
+  EXPECT_EQ(snapshot->info().types.front().count, 3U);
+  EXPECT_THAT(snapshot->info().notes,
+              ElementsAre(AllOf(HasSubstr("line 1 is taken for a particle; if its 2 is the number"),
+                                HasSubstr("read.skip_lines"))));
+  EXPECT_THAT(open("2 1 0.5\n1 2 3\n4 5 6\n", {{"x", "y", "z"}})->info().notes,
+              ::testing::IsEmpty());
+}
+
 TEST_F(TextForm, TextBeforeNamesOfPositionsIsLeftOut) {
   const auto snapshot = open("A run of mine\nmade on a day\nx y z mass\n1 2 3 7\n4 5 6 8\n");
   EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
