@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from odd import assert_reads, assert_reads_group, assert_units, counts_of, has_note, hdf5, mass_in_map, of
-from splotchcl import DataError, Snapshot
+from odd import assert_reads, assert_reads_group, assert_units, counts_of, has_note, h5py, hdf5, mass_in_map, of
+from splotchcl import DataError, Snapshot, _core
 
 pytestmark = pytest.mark.usefixtures("program", "renderer")
 
@@ -78,3 +78,41 @@ def test_tipsy_of_other_habits_is_read(odd_files):
     assert_reads(auxiliary["halo"], smoothing_length=2 * lengths)
     assert has_note(auxiliary, "b11_aux.std.den left out", "2404 bytes, expected 1204")
     assert 1 == mass_in_map(odd_files / "b11_aux.std", (0, 0, 0), 1.5)
+
+
+def test_steps_in_records_of_numpy_are_apart(tmp_path):
+    rows = np.zeros(6, [("step", ">i4"), ("x", "f8"), ("y", "f8"), ("z", "f8")])
+    rows["step"], rows["x"] = [0, 0, 1, 1, 10, 10], range(6)
+    path = tmp_path / "steps.npy"
+    np.save(path, rows)
+    last = Snapshot(path)
+    assert has_note(last, "3 steps in time, step=0 to step=10", "the last is read")
+    for snapshot, x in ((last, [4, 5]), (Snapshot(path / "step=1"), [2, 3])):
+        np.testing.assert_array_equal(snapshot["gas"]["position"][:, 0], x)
+
+
+@pytest.mark.parametrize("rows, is_said", [
+    (np.linspace(0, 1, 768).reshape(256, 3), True),
+    (np.arange(768, dtype=np.uint8).reshape(256, 3), True),
+    (np.linspace(0, 1, 750).reshape(250, 3), False),
+    (np.linspace(-1, 1, 768).reshape(256, 3), False),
+], ids=["parts of 1", "bytes", "another number of rows", "below 0"])
+def test_rows_that_may_be_colors_are_said(tmp_path, rows, is_said):
+    path = tmp_path / "rows.npy"
+    np.save(path, rows)
+    snapshot = Snapshot(path)
+    assert has_note(snapshot, "if they are colors") == is_said
+    assert_reads(snapshot["gas"], position=rows)
+    if is_said:
+        colors = _core.palette_colors(str(path), 1)
+        np.testing.assert_allclose(colors, rows / max(1, rows.max()), rtol=1e-6)
+
+
+def test_names_of_any_bytes_are_shown(tmp_path):
+    path = tmp_path / "names.h5"
+    with h5py.File(path, "w") as file:
+        file["pos"] = np.eye(3)
+        file[b"gr\xf6\xdfe"] = np.arange(3.0)
+    gas = Snapshot(path)["gas"]
+    assert list(gas) == ["gr\N{LATIN SMALL LETTER O WITH DIAERESIS}\N{LATIN SMALL LETTER SHARP S}e", "position"]
+    assert_reads(gas, position=np.eye(3))

@@ -13,11 +13,12 @@ from odd import (
     assert_units,
     counts_of,
     has_note,
+    h5py,
     hdf5,
     mass_in_map,
     of,
 )
-from splotchcl import Snapshot
+from splotchcl import DataError, Snapshot
 
 pytestmark = pytest.mark.usefixtures("program", "renderer")
 
@@ -153,3 +154,46 @@ def test_headers_of_other_habits_are_understood(odd_files):
         assert has_note(snapshot, notes.get(habit, "")) == (habit in notes)
     names = {"position": "coordinates", "mass": "masses"}
     assert_reads_group(Snapshot(lower)["gas"], lower, "parttype0", names)
+
+
+def write_gadget_hdf5(path, header, particles):
+    counts = [len(particles["Coordinates"]), 0, 0, 0, 0, 0]
+    known = {"NumPart_ThisFile": counts, "NumPart_Total": counts, "MassTable": [0.0] * 6, "NumFilesPerSnapshot": 1,
+             "Time": 1.0, "Redshift": 0.0, "BoxSize": 100.0, "HubbleParam": 0.7, "Omega0": 0.3, "OmegaLambda": 0.7}
+    with h5py.File(path, "w") as file:
+        file.create_group("Header").attrs.update(known | header)
+        for name, values in particles.items():
+            file[f"PartType0/{name}"] = values
+
+
+POSITIONS = {"Coordinates": np.arange(60.0).reshape(20, 3)}
+
+
+@pytest.mark.parametrize("header, scale_factor, is_said", [
+    ({"Time": 0.5, "Redshift": 1.0}, 0.5, False),
+    ({"Time": np.array([0.5]), "Redshift": "1.0"}, 0.5, False),
+    ({"Time": 0.5, "Redshift": 3.0}, 0.25, True),
+    ({"Time": 0.0, "Redshift": 0.0}, 1, False),
+], ids=["alike", "as an array and text", "apart", "without a cosmology"])
+def test_scale_factors_that_disagree_are_said(tmp_path, header, scale_factor, is_said):
+    path = tmp_path / "snapshot.hdf5"
+    write_gadget_hdf5(path, header, POSITIONS)
+    snapshot = Snapshot(path)
+    assert 1 / (1 + snapshot.redshift) == scale_factor
+    assert has_note(snapshot, "no scale factor of its redshift") == is_said
+
+
+@pytest.mark.parametrize("difference", [{"Redshift": 0.2}, {"BoxSize": 50.0}, {"Time": 0.9}], ids=lambda d: next(iter(d)))
+def test_files_of_a_set_that_disagree_are_refused(tmp_path, difference):
+    for number, header in enumerate([{}, difference]):
+        of_set = {"NumFilesPerSnapshot": 2, "NumPart_Total": [40, 0, 0, 0, 0, 0]}
+        write_gadget_hdf5(tmp_path / f"snap.{number}.hdf5", of_set | header, POSITIONS)
+    with pytest.raises(DataError, match="its header has another"):
+        Snapshot(tmp_path / "snap.0.hdf5")
+
+
+@pytest.mark.parametrize("haloes", [np.repeat([3, -1], 10), np.repeat([3.0, -1.0], 10)], ids=["integers", "floats"])
+def test_haloes_may_be_floats_and_below_zero(tmp_path, haloes):
+    path = tmp_path / "snapshot.hdf5"
+    write_gadget_hdf5(path, {}, POSITIONS | {"HaloID": haloes})
+    np.testing.assert_array_equal(Snapshot(path)["gas"]["halo_id"], haloes)

@@ -154,6 +154,17 @@ void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::
   }
 }
 
+void note_other_scale_factor(SnapshotInfo& info) {
+  constexpr double rounding = 1e-3;
+  const double redshift = info.redshift.value_or(0);
+  const bool may_be_one = info.time > 0 && info.time <= 1 && redshift != 0;
+  if (info.cosmology || !may_be_one || std::abs(info.time * (1 + redshift) - 1) < rounding) return;
+  info.notes.push_back(
+      fmt::format("the header's time, {}, is no scale factor of its redshift, {}: a is {:.6g} in "
+                  "units, of the redshift",
+                  info.time, redshift, 1 / (1 + redshift)));
+}
+
 void describe(const GadgetHeader& header, SnapshotInfo& info) {
   info.time = header.time;
   // Runs without cosmology write a redshift of 0 that means nothing.

@@ -140,8 +140,9 @@ void TextTable::leave_out_line_of_counts(std::vector<std::string>& notes) {
   while (lines.next() && is_comment_line(lines.line())) {
   }
   const std::vector<std::string_view> next = cells_of(lines, layout_.format);
-  if (are_whole({next.front()})) return;
+  if (are_whole(next)) return;
   if (!are_whole(layout_.cells)) {
+    if (are_whole({next.front()})) return;  // identifiers
     notes.push_back(fmt::format(
         "line {} is taken for a particle; if its {} is the number of rows, leave it out with "
         "read.skip_lines",
