@@ -21,18 +21,18 @@
 namespace splotchcl::cli {
 namespace {
 
-// Before those that the user gives.
-std::vector<std::string> settings_of_units(const std::string& units) {
-  if (units.empty()) return {};
-  return {"map.length_unit='a kpc/h'", "map.mass_unit='1e10 Msun/h'",
-          "map.velocity_unit='a^0.5 km/s'"};
-}
-
-// Whether the user sets the key of a setting.
-bool is_set(const std::string& setting, const std::vector<std::string>& given) {
-  const std::string key = setting.substr(0, setting.find('=') + 1);
-  return std::any_of(given.begin(), given.end(),
-                     [&key](const std::string& one) { return one.rfind(key, 0) == 0; });
+// Which the user must not name in two ways.
+void check_units(const DrawOptions& options) {
+  const auto names_units = [](const std::string& setting) {
+    return setting.rfind("read.units", 0) == 0;
+  };
+  const auto& settings = options.settings;
+  const auto found = std::find_if(settings.begin(), settings.end(), names_units);
+  if (options.units.empty() || found == settings.end()) return;
+  throw UsageError(
+      fmt::format("--units {}: found --set {} beside it, expected one of them; both are --set "
+                  "'read.units=[\"{}\", \"mass=Msun\"]'",
+                  options.units, *found, options.units));
 }
 
 }  // namespace
@@ -54,9 +54,8 @@ std::vector<std::string> settings_of(const DrawOptions& options) {
 
 std::vector<std::string> common_settings_of(const DrawOptions& options) {
   std::vector<std::string> settings;
-  for (const std::string& unit : settings_of_units(options.units)) {
-    if (!is_set(unit, options.settings)) settings.push_back(unit);
-  }
+  check_units(options);
+  if (!options.units.empty()) settings.push_back(fmt::format("read.units='{}'", options.units));
   settings.insert(settings.end(), options.settings.begin(), options.settings.end());
   if (options.size) settings.push_back("image.size=" + *options.size);
   if (options.look) settings.push_back("look=" + *options.look);

@@ -33,10 +33,10 @@ void add_choices(CLI::App& sub, DrawOptions& options) {
 
 void add_reading(CLI::App& sub, DrawOptions& options) {
   sub.add_option("--units", options.units,
-                 wrapped("Units of a snapshot that does not say them: gadget stands for a kpc/h, "
-                         "1e10 Msun/h and a^0.5 km/s"))
+                 wrapped("Units of a snapshot that does not say them: cgs, si, or gadget, which "
+                         "stands for a kpc/h, 1e10 Msun/h and a^0.5 km/s"))
       ->type_name("NAME")
-      ->check(CLI::IsMember({"gadget"}));
+      ->check(CLI::IsMember({"gadget", "cgs", "si"}));
   sub.add_option("--every", options.every,
                  wrapped("Use every N-th particle, which counts for as much as is left out: a "
                          "quick look at much data"))

@@ -27,6 +27,9 @@ class FlatTable : public Table {
     if (!is_zero(column)) return table_->integers(column);
     return std::vector<std::uint64_t>(rows(), 0);
   }
+  std::string place(std::size_t column) const override {
+    return is_zero(column) ? std::string() : table_->place(column);
+  }
 
  private:
   bool is_zero(std::size_t column) const { return column + 1 == columns_.size(); }

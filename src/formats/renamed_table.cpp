@@ -16,9 +16,13 @@ namespace {
 // Columns of another table by other names, in another order.
 class RenamedTable : public Table {
  public:
+  // The first `named` columns have new names.
   RenamedTable(std::unique_ptr<const Table> table, std::vector<TableColumn> columns,
-               std::vector<std::size_t> places)
-      : table_(std::move(table)), columns_(std::move(columns)), places_(std::move(places)) {}
+               std::vector<std::size_t> places, std::size_t named)
+      : table_(std::move(table)),
+        columns_(std::move(columns)),
+        places_(std::move(places)),
+        named_(named) {}
   const std::vector<TableColumn>& columns() const override { return columns_; }
   std::uint64_t rows() const override { return table_->rows(); }
   void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override {
@@ -33,11 +37,17 @@ class RenamedTable : public Table {
   std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override {
     return table_->integers(places_[column]);
   }
+  std::string place(std::size_t column) const override {
+    const std::string inner = table_->place(places_[column]);
+    if (column >= named_ || !inner.empty()) return inner;
+    return split_unit(table_->columns()[places_[column]].name).name;
+  }
 
  private:
   std::unique_ptr<const Table> table_;
   std::vector<TableColumn> columns_;
   std::vector<std::size_t> places_;  // of the columns in the table
+  std::size_t named_;
 };
 
 // As the file writes it, else but for upper and lower case; a number is that of a column without a
@@ -101,7 +111,8 @@ std::unique_ptr<const Table> with_new_names(std::unique_ptr<const Table> table,
     columns.push_back(known[i]);
     places.push_back(i);
   }
-  return std::make_unique<RenamedTable>(std::move(table), std::move(columns), std::move(places));
+  return std::make_unique<RenamedTable>(std::move(table), std::move(columns), std::move(places),
+                                        named);
 }
 
 }  // namespace splotchcl

@@ -112,7 +112,8 @@ bool is_text(const fs::path& path) {
 // Where lines are to be skipped the file is a text table, whatever these lines look like.
 const SnapshotFormat* text_format_of(const fs::path& path, const SnapshotFormat* found) {
   const bool may_be_text = found == nullptr || found == &text_table_format();
-  if (may_be_text && fs::is_regular_file(path)) return &text_table_format();
+  const bool is_file = fs::is_regular_file(path) || path_in_file(path);
+  if (may_be_text && is_file) return &text_table_format();
   throw UsageError(fmt::format(
       "{}: read.skip_lines is for tables of text, but this is none; leave it out", path.string()));
 }

@@ -57,6 +57,7 @@ class FieldTable {
   std::vector<bool> find_repeated(SnapshotInfo& info) const;
   void find_fields(SnapshotInfo& info);
   void name_table_fields(SnapshotInfo& info);
+  void tell_places();
 
   std::unique_ptr<const Table> table_;
   std::vector<NameAndUnit> names_;
@@ -66,9 +67,10 @@ class FieldTable {
 FieldTable::FieldTable(std::unique_ptr<const Table> table, SnapshotInfo& info)
     : table_(std::move(table)) {
   for (const TableColumn& column : table_->columns())
-    names_.push_back(split_unit(column.name));
+    names_.push_back(split_unit(as_utf8(column.name)));
   find_fields(info);
   name_table_fields(info);
+  tell_places();
 }
 
 std::optional<std::size_t> FieldTable::find_column(const std::string& name) const {
@@ -201,6 +203,21 @@ void FieldTable::name_table_fields(SnapshotInfo& info) {
   fields_ = std::move(named);
 }
 
+// What is kept beside a file for one place in it must not be taken for another.
+void FieldTable::tell_places() {
+  for (TableField& field : fields_) {
+    std::vector<std::string> places, names;
+    for (const TableValue& value : field.values) {
+      places.push_back(table_->place(value.column));
+      names.push_back(places.back().empty() ? names_[value.column].name : places.back());
+    }
+    const bool is_told = std::any_of(places.begin(), places.end(),
+                                     [](const std::string& place) { return !place.empty(); });
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    if (is_told) field.info.file_name = fmt::format("{}", fmt::join(names, ","));
+  }
+}
+
 ParticleTypeInfo FieldTable::describe(int type) const {
   ParticleTypeInfo info;
   info.type = type;
@@ -277,9 +294,13 @@ void TableSnapshot::check_positions(const ParticleTypeInfo& type) const {
   for (const NameAndUnit& column : tables_.at(type.type).names())
     names.push_back(column.name);
   throw DataError(fmt::format(
-      "{}: no positions: its columns are {}; expected x, y and z: name the columns in their order, "
-      "as in read.columns = [\"x\", \"y\", \"z\", \"mass\"]",
-      info_.files.front().string(), fmt::join(names, ", ")));
+      "{}: no positions: {}; expected x, y and z: name the columns in their order, as in "
+      "read.columns = [\"x\", \"y\", \"z\", \"mass\"], or each anew, as in read.columns = {{x = "
+      "\"column\"}}",
+      info_.files.front().string(),
+      names.empty() && !info_.notes.empty()
+          ? info_.notes.back()
+          : fmt::format("its columns are {}", fmt::join(names, ", "))));
 }
 
 const TableField& TableSnapshot::positions_of(int type) const {

@@ -38,6 +38,9 @@ class Table {
   virtual bool is_single_precision(std::size_t column) const = 0;
   // A column of one value per row as whole numbers, exact; none where it has others.
   virtual std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const = 0;
+  // Where in the file a column lies that its name alone does not tell from others: of a group, a
+  // step in time, or one that was given another name. Else empty.
+  virtual std::string place(std::size_t) const { return {}; }
 };
 
 // A table as a snapshot of particles of type 0. Columns such as x, y, z or vx, vy, vz become

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "common/utf8.h"
 #include "snapshot/field_names.h"
 
 namespace splotchcl {
@@ -22,6 +23,20 @@ bool is_another_vector(const std::string& name) {
 }
 
 }  // namespace
+
+std::string as_utf8(const std::string& name) {
+  const std::vector<Character> characters = characters_of(name);
+  const bool is_utf8 = std::all_of(characters.begin(), characters.end(),
+                                   [](const Character& one) { return one.code.has_value(); });
+  if (is_utf8) return name;
+  std::string text;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) text += static_cast<char>(0xc0U | (byte >> 6U));
+    text += byte < 0x80 ? c : static_cast<char>(0x80U | (byte & 0x3fU));
+  }
+  return text;
+}
 
 NameAndUnit split_unit(const std::string& text) {
   for (const char* brackets : {"[]", "()"}) {
@@ -52,6 +67,15 @@ std::string vector_name(const std::string& column) {
   if (equal_ignoring_case(stem, "b")) return "magnetic_field";
   const std::string canonical = canonical_field_name(stem);
   return canonical.empty() ? stem : canonical;
+}
+
+bool is_place_or_size(const std::string& column) {
+  std::string first = column;
+  const bool is_axis =
+      !first.empty() && std::string("yzYZ").find(first.back()) != std::string::npos;
+  if (is_axis) first = with_axis(std::move(first), 0);
+  const std::string field = canonical_field_name(column);
+  return field == "position" || field == "smoothing_length" || vector_name(first) == "position";
 }
 
 std::string with_axis(std::string column, int axis) {

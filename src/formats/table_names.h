@@ -12,6 +12,9 @@ struct NameAndUnit {
   std::string name, unit;
 };
 
+// Itself, or where it is no UTF-8 what it is in Latin-1, as older programs write it.
+std::string as_utf8(const std::string& name);
+
 // "x [kpc]" is x in kpc.
 NameAndUnit split_unit(const std::string& text);
 
@@ -30,6 +33,9 @@ std::string with_axis(std::string column, int axis);
 
 // The column that positions are in, by its name: also the first of three axes.
 std::optional<std::size_t> find_positions(const std::vector<TableColumn>& columns);
+
+// Whether a column of this name is of positions or smoothing lengths.
+bool is_place_or_size(const std::string& column);
 
 // Which axis of the positions is among what is left out; empty where none is. Without it the
 // positions would be others.

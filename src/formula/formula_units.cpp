@@ -228,6 +228,9 @@ double converted(const Formula& formula, const FormulaPart& number, const Formul
                      ", whose unit is not known, expected a number alone; or name the units of "
                      "its fields as read.units");
   }
+  // The factors a and h that it has must be known.
+  for (const auto& [name, exponent] : wanted.unit.factors)
+    parse_unit(name, factors, what);
   const Unit unit = parse_unit(number.unit, factors, what);
   const std::optional<double> ratio = ratio_in_comparison(unit, wanted.unit.unit);
   if (ratio) return number.number * *ratio;

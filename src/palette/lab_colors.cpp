@@ -8,8 +8,6 @@
 namespace splotchcl {
 namespace {
 
-using Three = std::array<double, 3>;
-
 // IEC 61966-2-1.
 constexpr std::array<Three, 3> xyz_of_rgb = {{{0.4124564, 0.3575761, 0.1804375},
                                               {0.2126729, 0.7151522, 0.0721750},
@@ -48,6 +46,8 @@ double ratio_of(double root) {
   return 3 * linear_end * linear_end * (root - 4.0 / 29);
 }
 
+}  // namespace
+
 Three lab_of(const Rgb& color) {
   Three light;
   for (std::size_t c = 0; c < 3; ++c)
@@ -68,25 +68,30 @@ Rgb color_of_lab(const Three& lab) {
   return color;
 }
 
-}  // namespace
-
-std::vector<PlacedColor> joined_in_lab(const std::vector<PlacedColor>& colors) {
+std::vector<PlacedColor> joined(const std::vector<PlacedColor>& colors, const Between& between) {
   constexpr int steps = 64;
-  std::vector<PlacedColor> joined;
+  std::vector<PlacedColor> all;
   for (std::size_t i = 0; i + 1 < colors.size(); ++i) {
     const PlacedColor &before = colors[i], &after = colors[i + 1];
-    const Three a = lab_of(before.color), b = lab_of(after.color);
-    joined.push_back(before);
+    all.push_back(before);
     for (int step = 1; step < steps; ++step) {
       const double part = static_cast<double>(step) / steps;
-      Three lab;
-      for (std::size_t c = 0; c < 3; ++c)
-        lab[c] = a[c] + part * (b[c] - a[c]);
-      joined.push_back({before.place + part * (after.place - before.place), color_of_lab(lab)});
+      all.push_back({before.place + part * (after.place - before.place),
+                     between(before.color, after.color, part)});
     }
   }
-  if (!colors.empty()) joined.push_back(colors.back());
-  return joined;
+  if (!colors.empty()) all.push_back(colors.back());
+  return all;
+}
+
+std::vector<PlacedColor> joined_in_lab(const std::vector<PlacedColor>& colors) {
+  return joined(colors, [](const Rgb& before, const Rgb& after, double part) {
+    const Three a = lab_of(before), b = lab_of(after);
+    Three lab;
+    for (std::size_t c = 0; c < 3; ++c)
+      lab[c] = a[c] + part * (b[c] - a[c]);
+    return color_of_lab(lab);
+  });
 }
 
 }  // namespace splotchcl

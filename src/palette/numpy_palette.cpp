@@ -11,13 +11,11 @@
 namespace splotchcl {
 namespace {
 
-constexpr std::uint64_t most_knots = 65536;
-
 [[noreturn]] void refuse_array(const std::string& name, const std::string& found) {
-  throw DataError(
-      fmt::format("{}: found {}, expected an array of rows of red, green and blue (and an opacity "
-                  "of 1), from 0 to 1, or whole numbers to 255",
-                  name, found));
+  throw DataError(fmt::format(
+      "{}: found {}, expected an array of at most {} rows of red, green and blue (and an "
+      "opacity of 1), from 0 to 1, or whole numbers to 255",
+      name, found, most_knots));
 }
 
 bool may_be_colors(const NumpyHeader& header) {

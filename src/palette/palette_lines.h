@@ -8,6 +8,9 @@
 
 namespace splotchcl {
 
+// More rows than any palette has are those of something else.
+constexpr std::size_t most_knots = 4096;
+
 // A line of a palette file.
 struct PaletteLine {
   std::string_view text;  // without spaces around it

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/words.h"
+#include "palette/diverging_colors.h"
 #include "palette/lab_colors.h"
 #include "palette/other_palettes.h"
 #include "palette/placed_colors.h"
@@ -17,17 +18,20 @@ namespace {
 // Between few colors other spaces than RGB have other ones.
 constexpr std::size_t enough_colors = 16;
 
+std::vector<PlacedColor> joined_in(const std::string& space, std::vector<PlacedColor> colors,
+                                   const std::string& name) {
+  const std::string lower = lower_case(space);
+  if (lower == "lab" || lower == "cielab") return joined_in_lab(colors);
+  if (lower == "diverging") return joined_over_white(colors);
+  if (colors.size() >= enough_colors || lower.empty() || lower == "rgb") return colors;
+  throw DataError(
+      fmt::format("{}: found {} colors to be joined in the space {}, expected RGB, Lab, Diverging, "
+                  "or {} colors at least; export it from ParaView in RGB",
+                  name, colors.size(), shown(space), enough_colors));
+}
+
 Palette make_palette(std::vector<PlacedColor> colors, const std::string& space,
                      const std::string& name) {
-  const std::string lower = lower_case(space);
-  const bool is_lab = lower == "lab" || lower == "cielab";
-  if (colors.size() < enough_colors && !lower.empty() && lower != "rgb" && !is_lab) {
-    throw DataError(
-        fmt::format("{}: found {} colors to be joined in the space {}, expected RGB or Lab, or {} "
-                    "colors at least; "
-                    "export it from ParaView in RGB",
-                    name, colors.size(), shown(space), enough_colors));
-  }
   for (const PlacedColor& color : colors) {
     const bool is_color = std::all_of(color.color.begin(), color.color.end(),
                                       [](float light) { return light >= 0 && light <= 1; });
@@ -44,7 +48,7 @@ Palette make_palette(std::vector<PlacedColor> colors, const std::string& space,
   }
   Palette palette;
   palette.name = name;
-  palette.emission = even_knots(is_lab ? joined_in_lab(colors) : colors);
+  palette.emission = even_knots(joined_in(space, std::move(colors), name));
   return palette;
 }
 

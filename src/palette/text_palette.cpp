@@ -108,6 +108,12 @@ std::size_t columns_of(const std::vector<Knot>& knots, const std::string& name) 
     throw DataError(name + ": found no knots, expected lines of 3 or 6 numbers from 0 to 1");
   }
   const std::size_t columns = knots.front().numbers.size();
+  if (knots.size() > most_knots) {
+    throw DataError(
+        fmt::format("{}: found {} rows, expected at most {} colors; a table of particles "
+                    "is no palette",
+                    name, knots.size(), most_knots));
+  }
   for (const Knot& knot : knots) {
     const bool is_known = columns == 3 || columns == 4 || columns == 6;
     if (is_known && knot.numbers.size() == columns) continue;

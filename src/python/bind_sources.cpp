@@ -86,11 +86,24 @@ Integers read_integers(const Snapshot& snapshot, int type, const std::string& na
   return {snapshot.read_integers(type, name)};
 }
 
+// Names in files may have any bytes.
+py::str readable(const std::string& text) {
+  return py::reinterpret_steal<py::str>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
+}
+
+py::list readable(const std::vector<std::string>& texts) {
+  py::list list;
+  for (const std::string& text : texts)
+    list.append(readable(text));
+  return list;
+}
+
 py::dict describe(const ParticleTypeInfo& type) {
   py::dict fields;
   for (const FieldInfo& field : type.fields) {
-    fields[py::str(field.name)] =
-        py::make_tuple(field.file_name, field.values_per_particle, field.unit);
+    fields[readable(field.name)] =
+        py::make_tuple(readable(field.file_name), field.values_per_particle, readable(field.unit));
   }
   py::dict text;
   text["type"] = type.type;
@@ -120,7 +133,7 @@ py::dict describe(const Source& source) {
   text["redshift"] = info.redshift;
   text["box_size"] = describe(info.box_size);
   text["hubble_parameter"] = info.hubble_parameter;
-  text["notes"] = info.notes;
+  text["notes"] = readable(info.notes);
   text["types"] = types;
   return text;
 }

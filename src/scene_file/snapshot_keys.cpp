@@ -38,11 +38,17 @@ ValueType<std::vector<std::string>> column_names() {
   return {"an array of strings, or a table of strings by name", read, list.write};
 }
 
-// The unit of each field, also in a list of "field=unit".
+// The unit of each field, also in a list of "field=unit"; or the name of a system of units, alone
+// or in the list.
 ValueType<std::vector<std::string>> field_units() {
-  ValueType<std::vector<std::string>> units = column_names();
-  units.expected = "a table of units by field, such as {mass = \"Msun\"}";
-  return units;
+  const ValueType<std::vector<std::string>> units = column_names();
+  const auto read = [units](const toml::node& node) {
+    const auto system = node.value_exact<std::string>();
+    return system && !system->empty() ? std::optional(std::vector<std::string>{*system})
+                                      : units.read(node);
+  };
+  return {"a table of units by field, such as {mass = \"Msun\"}, or `gadget`, `cgs` or `si`", read,
+          units.write};
 }
 
 }  // namespace

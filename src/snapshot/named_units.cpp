@@ -10,20 +10,18 @@
 
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"
+#include "snapshot/unit_systems.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
 
-struct FieldUnit {
-  std::string field, unit;
-};
-
 FieldUnit parse_field_unit(const std::string& text) {
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) {
-    throw UsageError(
-        fmt::format("read.units: found \"{}\", expected FIELD=UNIT, such as mass=Msun", text));
+    throw UsageError(fmt::format(
+        "read.units: found \"{}\", expected FIELD=UNIT, such as mass=Msun, or a system: {}", text,
+        fmt::join(names_of_unit_systems(), ", ")));
   }
   return {text.substr(0, sign), text.substr(sign + 1)};
 }
@@ -86,6 +84,31 @@ void name_unit(const FieldUnit& named, SnapshotInfo& info) {
                                    named.field, named.unit, fmt::join(stated, ", ")));
 }
 
+bool is_same_unit(const std::string& a, const std::string& b, const UnitFactors& factors) {
+  constexpr double rounding = 1e-3;
+  const auto ratio = ratio_of_known_units(a, b, factors);
+  return ratio && std::abs(*ratio - 1) < rounding;
+}
+
+// A system counts where the file says nothing.
+void name_units_of_system(const std::vector<FieldUnit>& system, SnapshotInfo& info) {
+  std::set<std::string> kept;
+  for (const FieldUnit& named : system) {
+    for (ParticleTypeInfo& type : info.types) {
+      FieldInfo* const field = find_own(type, named.field);
+      if (field == nullptr) continue;
+      if (field->unit.empty()) {
+        field->unit = named.unit;
+      } else if (!is_same_unit(field->unit, named.unit, unit_factors(info))) {
+        kept.insert(fmt::format("{} in {}", field->name, field->unit));
+      }
+    }
+  }
+  if (kept.empty()) return;
+  info.notes.push_back(
+      fmt::format("units that the file states are kept: {}", fmt::join(kept, ", ")));
+}
+
 // What smoothing lengths of each type have to be multiplied by to be in the unit of positions.
 using SizeFactors = std::map<int, double>;
 
@@ -101,6 +124,7 @@ SizeFactors factors_of_sizes(SnapshotInfo& info) {
     info.notes.push_back(fmt::format("smoothing_length of type {} is converted from {} to {}",
                                      type.type, size->unit, position->unit));
     size->unit = position->unit;
+    size->file_name += fmt::format(" times {:.7g}", *ratio);
     factors[type.type] = *ratio;
   }
   return factors;
@@ -148,7 +172,10 @@ std::unique_ptr<Snapshot> with_named_units(std::unique_ptr<Snapshot> snapshot,
                                            const std::vector<std::string>& units) {
   SnapshotInfo info = snapshot->info();
   for (const std::string& text : units)
-    name_unit(parse_field_unit(text), info);
+    name_units_of_system(units_of_system(text), info);
+  for (const std::string& text : units) {
+    if (units_of_system(text).empty()) name_unit(parse_field_unit(text), info);
+  }
   SizeFactors factors = factors_of_sizes(info);
   if (units.empty() && factors.empty()) return snapshot;
   return std::make_unique<NamedUnitsSnapshot>(std::move(snapshot), std::move(info),

@@ -48,6 +48,9 @@ std::uint64_t key_of(const SnapshotInfo& info) {
   for (const ParticleTypeInfo& type : info.types) {
     hash.add(static_cast<std::uint64_t>(type.type));
     hash.add(type.count);
+    // Another place in the same file is another snapshot, and so are other columns.
+    for (const FieldInfo& field : type.fields)
+      hash.add(field.file_name);
   }
   return hash.value();
 }

@@ -44,6 +44,12 @@ TEST_F(TypedOptions, AreNamedWhereNoParticleHasTheirField) {
               HasSubstr("component gas: --where: found 2 Mpc"));
 }
 
+TEST_F(TypedOptions, NameUnitsInOneWay) {
+  EXPECT_THAT(error_of("render s.hdf5 --units gadget --set read.units=cgs"),
+              HasSubstr("--units gadget: found --set read.units=cgs beside it"));
+  EXPECT_THAT(error_of("render s.hdf5 --units gadgets"), HasSubstr("--units: gadgets not in {gadget,cgs,si}"));
+}
+
 TEST_F(TypedOptions, AreNamedWhereNothingTellsAHalo) {
   EXPECT_THAT(error_of("render s.hdf5 --center halo=3"),
               StartsWith("splotchcl: --center halo=3: particles of type"));

@@ -297,6 +297,18 @@ TEST(NumbersWithUnits, OfEnergiesStandBesideTemperatures) {
   EXPECT_NEAR(number_in("T > 1 keV"), 1.602176634e-9 / 1.380649e-16, 1);
 }
 
+// They would be compared as if h were 1.
+TEST(NumbersWithUnits, AreRefusedWhereTheFieldsUnitHasAnUnknownFactor) {
+  const auto in_units_of_h = [](const std::string&) { return written_unit("kpc/h", {1, 0}); };
+  EXPECT_THAT(
+      [&] {
+        with_converted_numbers(Formula::parse("r < 2 Mpc", "here"), in_units_of_h, {1, 0}, "here");
+      },
+      ::testing::ThrowsMessage<UsageError>(HasSubstr("h")));
+  EXPECT_NO_THROW(
+      with_converted_numbers(Formula::parse("r < 2", "here"), in_units_of_h, {1, 0}, "here"));
+}
+
 TEST(NumbersWithUnits, ThatDoNotFitAreRefused) {
   EXPECT_THAT(refusal_of_units("T > 1 kpc"),
               HasSubstr("found 1 kpc beside T in \"T > 1 kpc\", which is in K"));

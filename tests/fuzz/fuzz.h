@@ -78,11 +78,13 @@ inline void read_all(const Snapshot& snapshot) {
   }
 }
 
-// Opens the scratch file with one format, whether it would be recognised or not, and reads all.
-inline void read_as(const SnapshotFormat& format, const SnapshotOptions& options = {}) {
+// Opens the scratch file, or a place in it, with one format, and reads all.
+inline void read_as(const SnapshotFormat& format, const SnapshotOptions& options = {},
+                    const std::string& place = "") {
   try {
     if (!format.recognizes(MappedFile::open(scratch_file()))) return;
-    read_all(*format.open(scratch_file(), options));
+    const std::filesystem::path& file = scratch_file();
+    read_all(*format.open(place.empty() ? file : file / place, options));
   } catch (const Error&) {
     // refused
   }

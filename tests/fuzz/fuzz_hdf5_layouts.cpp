@@ -31,7 +31,7 @@ const std::array<const char*, 16> groups = {"",
                                             "Step#01",
                                             "df",
                                             "stars/a/b/c/d/e/f/g"};
-const std::array<const char*, 16> names = {"x",
+const std::array<const char*, 18> names = {"x",
                                            "y",
                                            "z",
                                            "data",
@@ -46,9 +46,12 @@ const std::array<const char*, 16> names = {"x",
                                            "block0_values",
                                            "list",
                                            "list.__table_column_meta__",
-                                           "a:b"};
-const std::array<const char*, 8> attributes = {"value", "shape",   "unitSI", "unitDimension",
-                                               "time",  "openPMD", "units",  "BoxSize"};
+                                           "a:b",
+                                           "step",
+                                           "r"};
+const std::array<const char*, 10> attributes = {
+    "value",   "shape", "unitSI",  "unitDimension", "time",
+    "openPMD", "units", "BoxSize", "scale_factor",  "add_offset"};
 const std::array<double, 12> numbers = {0,  1,    2,     3,      4,   5,
                                         -1, 1e15, 1e300, 1e-300, 0.5, 4294967296.0};
 
@@ -150,10 +153,13 @@ void write_file(Plan& plan) {
   std::string group;
   while (!plan.is_at_end()) {
     const std::string path = (group.empty() ? "" : group + "/") + plan.one_of(names);
-    switch (plan.below(6)) {
+    switch (plan.below(7)) {
       case 0:
         group = plan.one_of(groups);
         make_groups(file, group);
+        break;
+      case 6:  // to itself, to another, or nowhere
+        H5Lcreate_soft(plan.one_of(groups), file.id(), path.c_str(), H5P_DEFAULT, H5P_DEFAULT);
         break;
       case 1:
         add_attribute(file, plan.below(2) == 0 ? group : path, plan);

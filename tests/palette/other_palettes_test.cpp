@@ -7,6 +7,7 @@
 
 #include "palette/palette_file.h"
 #include "splotchcl/error.h"
+#include "splotchcl/palette_file.h"
 
 namespace splotchcl {
 namespace {
@@ -148,15 +149,47 @@ TEST(OtherPalettes, OfParaviewAreJoinedInLabWhereTheySaySo) {
   EXPECT_NEAR(middle[2], middle[0], 1e-4);
 }
 
+// Matplotlib's coolwarm is the table of these two ends in Moreland's paper.
+TEST(OtherPalettes, OfParaviewThatDivergeGoOverWhite) {
+  const Palette palette = parse_palette(
+      R"([{"ColorSpace":"Diverging","RGBPoints":[0,0.23,0.299,0.754,1,0.706,0.016,0.15]}])",
+      "a.json");
+  const Palette table = load_palette("coolwarm", "");
+  for (std::size_t i = 0; i < table.emission.size(); ++i) {
+    const double place = static_cast<double>(i) / static_cast<double>(table.emission.size() - 1);
+    const auto color = sample_knots(palette.emission, place);
+    for (std::size_t c = 0; c < 3; ++c)
+      EXPECT_NEAR(color[c], table.emission[i][c], 0.01) << "color " << i;
+  }
+}
+
+// A gray and a color are joined without white between them.
+TEST(OtherPalettes, OfParaviewThatDivergeFromGrayDoNotGoOverWhite) {
+  const Palette palette = parse_palette(
+      R"([{"ColorSpace":"Diverging","RGBPoints":[0,0.2,0.2,0.2,1,0.706,0.016,0.15]}])", "a.json");
+  for (const Rgb& color : palette.emission)
+    EXPECT_LT(color[1], 0.5);
+}
+
 TEST(OtherPalettes, AreNoTablesOfParticles) {
   EXPECT_THAT(refusal_of_palette("x y z mass\n0 0.1 0.2 1\n1 0.5 0.5 1\n", "a.txt"),
               HasSubstr("found a column \"y\", as of particles"));
 }
 
+TEST(OtherPalettes, OfMoreRowsThanPalettesHaveAreRefused) {
+  std::string rows;
+  for (int row = 0; row <= 4096; ++row)
+    rows += "0.5 0.5 0.5\n";
+  EXPECT_THAT(refusal_of_palette(rows, "a.txt"), HasSubstr("found 4097 rows"));
+  EXPECT_THAT(
+      refusal_of_palette(numpy_array("|u1", "(4097, 3)", std::string(12291, '\1')), "a.npy"),
+      HasSubstr("at most 4096 rows"));
+}
+
 TEST(OtherPalettes, OfFewColorsInOtherSpacesAreRefused) {
-  EXPECT_THAT(refusal_of_palette("[{\"ColorSpace\":\"Diverging\",\"RGBPoints\":[0,0,0,1,1,1,0,0]}]",
-                                 "a.json"),
-              HasSubstr("2 colors to be joined in the space Diverging"));
+  EXPECT_THAT(
+      refusal_of_palette("[{\"ColorSpace\":\"HSV\",\"RGBPoints\":[0,0,0,1,1,1,0,0]}]", "a.json"),
+      HasSubstr("2 colors to be joined in the space HSV"));
   EXPECT_THAT(refusal_of_palette("# COLOR_MODEL = HSV\n0 0 1 1 1 360 1 1\n", "a.cpt"),
               HasSubstr("expected COLOR_MODEL = RGB"));
 }

@@ -47,6 +47,16 @@ def real_file():
 
 
 @pytest.fixture(scope="session")
+def odd_files(tmp_path_factory) -> Path:
+    """The folder of what all generators of odd files made."""
+    from odd import make_all
+
+    folder = tmp_path_factory.mktemp("odd")
+    make_all(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
 def renderer():
     if not splotchcl.devices():
         pytest.skip("no OpenCL device")

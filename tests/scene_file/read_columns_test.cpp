@@ -38,6 +38,16 @@ TEST(ReadUnits, AreATableOfFieldsAndUnits) {
   EXPECT_EQ(parse_scene(format_scene(scene), "again.toml").read.units, scene.read.units);
 }
 
+TEST(ReadUnits, MayBeOfASystem) {
+  for (const char* const value : {"\"gadget\"", "[\"gadget\"]"}) {
+    const Scene scene = parse_scene(start + "[read]\nunits = " + value + "\n", "scene.toml");
+    EXPECT_THAT(scene.read.units, UnorderedElementsAre("gadget"));
+    EXPECT_EQ(parse_scene(format_scene(scene), "again.toml").read.units, scene.read.units);
+  }
+  EXPECT_THAT(apply_settings(Scene(), {"read.units=gadget"}).read.units,
+              UnorderedElementsAre("gadget"));
+}
+
 TEST(Haloes, HaveNumbersOfAnyLength) {
   for (const std::uint64_t number :
        {std::uint64_t{0}, std::uint64_t{9007199254740993U}, std::uint64_t{18446744073709551615U}}) {

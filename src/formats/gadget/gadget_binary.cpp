@@ -75,6 +75,7 @@ GadgetBinarySnapshot::GadgetBinarySnapshot(const std::filesystem::path& path) {
   const GadgetBinaryFile& first = members_.front().file;
   info_.format = fmt::format("Gadget format {}, {}-endian", first.format,
                              first.is_swapped == is_little_endian_host() ? "big" : "little");
+  note_other_scale_factor(info_);
   for (ParticleTypeInfo& type : info_.types)
     find_fields(type);
   choose_origin();

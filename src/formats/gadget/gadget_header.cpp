@@ -24,6 +24,10 @@ void check_same_snapshot(const GadgetHeader& first, const GadgetHeader& other,
   if (other.table_masses != first.table_masses) difference = "mass table";
   if (other.total_counts != first.total_counts) difference = "total number of particles";
   if (other.files != first.files) difference = "number of files";
+  if (other.redshift != first.redshift) difference = "redshift";
+  if (other.box_size.has_value() != first.box_size.has_value() ||
+      (first.box_size && other.box_size->text() != first.box_size->text()))
+    difference = "box";
   if (other.time != first.time) difference = "time";
   if (difference == nullptr) return;
   throw DataError(
@@ -148,6 +152,17 @@ void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::
         "particles of type {} have no masses: neither their own nor in the header's mass table",
         type.type));
   }
+}
+
+void note_other_scale_factor(SnapshotInfo& info) {
+  constexpr double rounding = 1e-3;
+  const double redshift = info.redshift.value_or(0);
+  const bool may_be_one = info.time > 0 && info.time <= 1 && redshift != 0;
+  if (info.cosmology || !may_be_one || std::abs(info.time * (1 + redshift) - 1) < rounding) return;
+  info.notes.push_back(
+      fmt::format("the header's time, {}, is no scale factor of its redshift, {}: a is {:.6g} in "
+                  "units, of the redshift",
+                  info.time, redshift, 1 / (1 + redshift)));
 }
 
 void describe(const GadgetHeader& header, SnapshotInfo& info) {

@@ -69,6 +69,10 @@ void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::
 // Fills what follows from the header: time, redshift, box, h, types with count and mass.
 void describe(const GadgetHeader& header, SnapshotInfo& info);
 
+// Of files whose time is the scale factor, where there are cosmologies: a note where the redshift
+// tells another.
+void note_other_scale_factor(SnapshotInfo& info);
+
 // The files of the snapshot that `path`, with this header, belongs to. A header may say that its
 // file is all there is and be wrong: files beside it of the same time then count as well.
 template <typename Read>

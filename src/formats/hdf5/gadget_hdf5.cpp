@@ -146,6 +146,7 @@ void GadgetHdf5Snapshot::read_motion() {
   const Hdf5File file(member->path);
   info_.cosmology =
       read_cosmology(file, member->header(), path_of("position"), path_of("velocity"));
+  if (!is_swift_) note_other_scale_factor(info_);
   if (has_gizmo_units(file)) name_gizmo_units(file, info_);
 }
 

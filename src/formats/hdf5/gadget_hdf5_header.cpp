@@ -258,9 +258,10 @@ const char* columns_of(const Hdf5Dataset& dataset) {
   }
   throw DataError(fmt::format(
       "{}: no positions: the header counts {} particles of {}, which has {}; expected a dataset "
-      "Coordinates with three columns of numbers: the file is incomplete, or no snapshot",
+      "Coordinates with three columns of numbers: the file is incomplete or no snapshot, or name "
+      "them, as in read.columns = {{x = \"{}/Coordinates:1\", y = ...}}",
       file.path().string(), count, group,
-      labels.empty() ? "no datasets" : fmt::format("only {}", fmt::join(labels, ", "))));
+      labels.empty() ? "no datasets" : fmt::format("only {}", fmt::join(labels, ", ")), group));
 }
 
 // The positions of a type; null where it has none.

@@ -181,9 +181,9 @@ bool append_whole_floats(const Hdf5File& file, const Hdf5Dataset& dataset,
     std::vector<double> found(rows);
     file.read_rows(dataset, first, rows, found.data());
     for (const double value : found) {
-      const bool is_whole = value >= 0 && value <= largest && value == std::floor(value);
+      const bool is_whole = std::abs(value) <= largest && value == std::floor(value);
       are_whole = are_whole && is_whole;
-      values.push_back(is_whole ? static_cast<std::uint64_t>(value) : 0);
+      values.push_back(is_whole ? static_cast<std::uint64_t>(static_cast<std::int64_t>(value)) : 0);
     }
   });
   return are_whole;

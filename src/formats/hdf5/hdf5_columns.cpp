@@ -68,11 +68,20 @@ void add_two_axes(const std::string& name, const Hdf5Dataset& dataset, Hdf5Colum
   }
 }
 
-void add_dataset(Hdf5Dataset dataset, Hdf5Columns& found) {
+// As netCDF keeps real numbers in few bits.
+void unpack(const Hdf5File& file, Hdf5Column& column) {
+  Hdf5Column::Term& term = column.terms.front();
+  if (term.dataset.kind != Hdf5Dataset::Kind::integer) return;
+  term.factor = file.number(term.dataset.path, "scale_factor").value_or(1);
+  column.constant = file.number(term.dataset.path, "add_offset").value_or(0);
+}
+
+void add_dataset(const Hdf5File& file, Hdf5Dataset dataset, Hdf5Columns& found) {
   const std::string name = field_label(dataset.label()), path = dataset.path;
   dataset.has_axes_first = has_axes_first(dataset);
   if (is_column(dataset)) {
     found.columns.push_back(column_of(name, path, std::move(dataset)));
+    unpack(file, found.columns.back());
   } else if (is_plane(dataset)) {
     add_two_axes(name, dataset, found);
   } else {
@@ -247,15 +256,24 @@ Hdf5Columns columns_of_records(const Hdf5File& file, const Hdf5Dataset& records)
   return found;
 }
 
+// h5py's complex numbers are records of two.
+bool are_complex(const Hdf5File& file, const Hdf5Dataset& records) {
+  const std::vector<Hdf5Dataset> members = file.members(records);
+  return members.size() == 2 && members[0].label() == "r" && members[1].label() == "i";
+}
+
 Hdf5Columns columns_of_group(const Hdf5File& file, const std::string& group) {
   Hdf5Columns found;
   for (Hdf5Dataset& dataset : file.datasets(group)) {
-    if (dataset.kind == Hdf5Dataset::Kind::records) continue;
+    if (dataset.kind == Hdf5Dataset::Kind::records) {
+      if (are_complex(file, dataset)) found.others.push_back(dataset.label());
+      continue;
+    }
     if (dataset.shape.empty()) {
       add_number_for_all(file, dataset, found);
       continue;
     }
-    add_dataset(std::move(dataset), found);
+    add_dataset(file, std::move(dataset), found);
   }
   for (const std::string& name : file.groups(group)) {
     const std::string path = path_in(group, name);

@@ -139,6 +139,24 @@ std::optional<std::vector<double>> numbers_in(const std::vector<std::string>& te
   return numbers.empty() ? std::nullopt : std::optional(std::move(numbers));
 }
 
+// A link that leads nowhere: "/PartType0/Density, a link to /gone,"; to "part.hdf5: /gone" in
+// another file. What is refused has been told already.
+void add_dead_link(hid_t group, const char* name, const H5L_info_t& link, const std::string& path,
+                   Hdf5Links& links) {
+  constexpr std::size_t longest = 4096;
+  if (link.type == H5L_TYPE_HARD || link.u.val_size > longest) return;
+  std::vector<char> value(link.u.val_size + 1, '\0');
+  if (H5Lget_val(group, name, value.data(), link.u.val_size, H5P_DEFAULT) < 0) return;
+  std::string place = value.data();
+  const char *file = nullptr, *object = nullptr;
+  if (link.type == H5L_TYPE_EXTERNAL) {
+    if (H5Lunpack_elink_val(value.data(), link.u.val_size, nullptr, &file, &object) < 0) return;
+    if (links.refused.count(file) > 0) return;
+    place = fmt::format("{}: {}", file, object);
+  }
+  links.dead.insert(fmt::format("{}, a link to {},", path, place));
+}
+
 }  // namespace
 
 // HDF5 would start with its first call otherwise; where memory runs out in that, all later calls
@@ -180,15 +198,18 @@ std::vector<std::string> Hdf5File::children(const std::string& group, H5I_type_t
   struct Search {
     H5I_type_t wanted;
     hid_t properties;
+    const std::string& group;
+    Hdf5Links& links;
     std::vector<std::string> names;
-  } search = {wanted, rules_.of_links(), {}};
+  } search = {wanted, rules_.of_links(), group, *links_, {}};
   const Group handle(H5Gopen2(file_.id(), group.c_str(), rules_.of_groups()));
   if (!handle.is_valid()) fail(fmt::format("group {} cannot be opened", group));
-  const auto visit = [](hid_t id, const char* name, const H5L_info_t*, void* data) -> herr_t {
+  const auto visit = [](hid_t id, const char* name, const H5L_info_t* link, void* data) -> herr_t {
     auto& found = *static_cast<Search*>(data);
-    // A link may lead nowhere; what does not exist is not listed.
     const Object object(H5Oopen(id, name, found.properties));
     try {  // nothing may be thrown through HDF5
+      if (!object.is_valid())
+        add_dead_link(id, name, *link, child_path(found.group, name), found.links);
       if (object.is_valid() && H5Iget_type(object.id()) == found.wanted)
         found.names.emplace_back(name);
     } catch (const std::exception&) {

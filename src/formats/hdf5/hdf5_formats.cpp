@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "formats/hdf5/hdf5_table.h"
 #include "formats/snapshot_format.h"
 #include "formats/table_names.h"
+#include "formats/table_steps.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
@@ -53,7 +55,12 @@ class Hdf5Formats : public SnapshotFormat {
     const Hdf5File file(path);
     const std::string place = "/" + group;
     if (!group.empty() && !file.has(place)) return {};
-    return file.groups(place);
+    std::vector<std::string> names = file.groups(place);
+    if (!find_positions(names_of(columns_in(file, place).columns))) return names;
+    std::vector<std::string> notes;
+    for (std::string& step : steps_in(Hdf5Table(path, place, notes)))
+      names.push_back(std::move(step));
+    return names;
   }
   // Names in their order are for tables alone.
   bool has_columns(const std::vector<std::string>& columns) const override {

@@ -35,7 +35,7 @@ herr_t judge_link(const char* parent, const char*, const char* child, const char
       links.followed.insert(file);
       return 0;
     }
-    links.refused.insert(child);
+    if (fs::exists(file)) links.refused.insert(child);  // where there is no file, the link is dead
   } catch (...) {
     // No memory: nothing may be thrown through HDF5.
   }
@@ -64,6 +64,8 @@ void note_refused(const Hdf5Links& links, std::vector<std::string>& notes) {
                     "own folder only",
                     other));
   }
+  for (const std::string& link : links.dead)
+    notes.push_back(fmt::format("{} is left out: nothing is there", link));
 }
 
 Hdf5LinkRules::Hdf5LinkRules(Hdf5Links& links)

@@ -46,9 +46,10 @@ class Hdf5Handle {
 struct Hdf5Links {
   std::set<std::filesystem::path> followed;
   std::set<std::string> refused;  // as the file spells them
+  std::set<std::string> dead;     // in the file, and where they lead
 };
 
-// Adds a note for each place that links were not followed to.
+// Adds a note for each place that links were not followed to, and for links that lead nowhere.
 void note_refused(const Hdf5Links& links, std::vector<std::string>& notes);
 
 // Properties with which HDF5 follows external links only to regular files in the folder of the file

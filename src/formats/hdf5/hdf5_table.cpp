@@ -69,7 +69,7 @@ Hdf5Table::Hdf5Table(const std::filesystem::path& path, const std::string& place
 }
 
 Hdf5Table::Hdf5Table(const std::filesystem::path& path, std::vector<Hdf5Column> named)
-    : path_(path) {
+    : path_(path), is_named_(true) {
   columns_ = with_units(named, units_of_columns(Hdf5File(path), "", named));
   sources_ = std::move(named);
   rows_ = sources_.front().rows.value_or(0);
@@ -155,6 +155,19 @@ void Hdf5Table::for_rows(const std::vector<TableValue>& wanted, const UseRow& us
       use(values.data());
     }
   }
+}
+
+std::string Hdf5Table::place(std::size_t column) const {
+  const Hdf5Column& source = sources_[column];
+  if (!is_named_ && !is_place_or_size(split_unit(columns_[column].name).name)) return {};
+  const bool is_at_root = source.owner.rfind('/') == 0;
+  if (source.terms.empty() || (is_at_root && !is_named_)) return {};
+  const Hdf5Dataset& dataset = source.terms.front().dataset;
+  std::string place = dataset.path.substr(1);
+  for (const std::string& member : dataset.member)
+    place += ":" + member;
+  if (dataset.column) place += fmt::format(":{}", *dataset.column + 1);
+  return place;
 }
 
 // yt keeps identifiers as doubles: they are whole numbers as far as doubles have all of these.

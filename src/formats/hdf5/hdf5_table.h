@@ -24,6 +24,7 @@ class Hdf5Table : public Table {
   void for_rows(const std::vector<TableValue>& wanted, const UseRow& use) const override;
   bool is_single_precision(std::size_t column) const override;
   std::optional<std::vector<std::uint64_t>> integers(std::size_t column) const override;
+  std::string place(std::size_t column) const override;
 
  private:
   void keep_those_of_particles(std::vector<std::string>& left_out);
@@ -36,6 +37,7 @@ class Hdf5Table : public Table {
   std::vector<TableColumn> columns_;
   std::vector<Hdf5Column> sources_;  // of the columns
   std::uint64_t rows_ = 0;
+  bool is_named_ = false;  // by somebody
 };
 
 }  // namespace splotchcl

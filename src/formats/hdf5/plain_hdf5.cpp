@@ -14,6 +14,7 @@
 #include "formats/hdf5/named_columns.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
+#include "formats/table_steps.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"
 #include "splotchcl/error.h"
@@ -240,14 +241,15 @@ class PlainHdf5 {
     info_.format = format_name(file_, is_of_yt_);
     info_.files = {path};
   }
-  std::unique_ptr<Snapshot> open(const std::string& wanted_group);
-  std::unique_ptr<Snapshot> open_named(const std::string& group,
+  // Of a group, or of a step in time in its table.
+  std::unique_ptr<Snapshot> open(const std::string& wanted);
+  std::unique_ptr<Snapshot> open_named(const std::string& wanted,
                                        const std::vector<std::string>& columns);
 
  private:
   void add_table(int type, std::unique_ptr<const Table> table);
-  // The only group, or the root.
-  std::unique_ptr<Snapshot> make_snapshot(const std::string& group);
+  // The only group, or the root; and the step in its tables.
+  std::unique_ptr<Snapshot> make_snapshot(const std::string& group, const std::string& step);
 
   Hdf5File file_;
   bool is_of_yt_;
@@ -259,7 +261,8 @@ void PlainHdf5::add_table(int type, std::unique_ptr<const Table> table) {
   tables_.emplace(type, with_flat_positions(std::move(table), info_.notes));
 }
 
-std::unique_ptr<Snapshot> PlainHdf5::make_snapshot(const std::string& group) {
+std::unique_ptr<Snapshot> PlainHdf5::make_snapshot(const std::string& group,
+                                                   const std::string& step) {
   // By now it has been asked for all groups.
   info_.files_beside.assign(file_.links().followed.begin(), file_.links().followed.end());
   note_refused(file_.links(), info_.notes);
@@ -272,10 +275,13 @@ std::unique_ptr<Snapshot> PlainHdf5::make_snapshot(const std::string& group) {
     info_.box_size =
         find_domain(file_, split_unit(columns[*positions].name).unit, unit_factors(info_));
   }
+  for (auto& [type, table] : tables_)
+    table = with_one_step(std::move(table), step, info_);
   return make_table_snapshot(std::move(tables_), std::move(info_));
 }
 
-std::unique_ptr<Snapshot> PlainHdf5::open(const std::string& wanted_group) {
+std::unique_ptr<Snapshot> PlainHdf5::open(const std::string& wanted) {
+  const auto [wanted_group, step] = split_step(wanted);
   const std::vector<std::string> groups =
       choose_step(file_, find_particle_groups(file_), wanted_group, info_.notes);
   for (const auto& [type, group] : choose_types(groups, info_.notes)) {
@@ -292,16 +298,17 @@ std::unique_ptr<Snapshot> PlainHdf5::open(const std::string& wanted_group) {
     throw DataError(fmt::format("{}: the positions in {} have no rows; expected particles",
                                 file_.path().string(), fmt::join(groups, ", ")));
   }
-  return make_snapshot(groups.size() == 1 ? groups.front() : common_group(groups));
+  return make_snapshot(groups.size() == 1 ? groups.front() : common_group(groups), step);
 }
 
-std::unique_ptr<Snapshot> PlainHdf5::open_named(const std::string& group,
+std::unique_ptr<Snapshot> PlainHdf5::open_named(const std::string& wanted,
                                                 const std::vector<std::string>& columns) {
+  const auto [group, step] = split_step(wanted);
   std::vector<Hdf5Column> named = named_columns(file_, group, columns);
   const std::string owner = named.front().owner;
   add_table(type_of_group(owner).value_or(0),
             std::make_unique<Hdf5Table>(file_.path(), std::move(named)));
-  return make_snapshot(with_outer_groups(owner)[1]);
+  return make_snapshot(with_outer_groups(owner)[1], step);
 }
 
 }  // namespace

@@ -15,7 +15,9 @@
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
+#include "formats/table_steps.h"
 #include "snapshot/field_names.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
 
@@ -103,6 +105,7 @@ class NumpyTable : public Table {
   void add(const std::string& name, NumpyColumn column);
   void add_number_for_all(const std::string& name, double value);
   void refuse_lost_axis() const;
+  bool may_be_colors() const;
   std::shared_ptr<const MappedFile> content(std::size_t array) const;
 
   fs::path path_;
@@ -142,6 +145,11 @@ NumpyTable::NumpyTable(const fs::path& path, const std::vector<std::string>& nam
   for (std::size_t array = 0; array < arrays_.size(); ++array)
     add_array(array, names);
   refuse_lost_axis();
+  if (names.empty() && !numbers_columns && may_be_colors()) {
+    info.notes.push_back(
+        "its rows of few numbers are taken for positions; if they are colors, name the file as a "
+        "palette");
+  }
   if (!left_out_.empty()) {
     info.notes.push_back(
         fmt::format("left out, as they are not one or three numbers for each of {} particles: {}",
@@ -236,6 +244,22 @@ void NumpyTable::add_number_for_all(const std::string& name, double value) {
   column.values.values_per_particle = 1;
   column.constant = value;
   add(name, std::move(column));
+}
+
+// As many rows as palettes tend to have, of red, green and blue.
+bool NumpyTable::may_be_colors() const {
+  constexpr std::array<std::uint64_t, 7> usual = {16, 32, 64, 128, 256, 512, 1024};
+  const NumpyHeader& header = arrays_.front().header;
+  const bool is_nameless = arrays_.size() == 1 && arrays_.front().name.empty();
+  const bool has_rows = std::find(usual.begin(), usual.end(), rows_) != usual.end();
+  if (!is_nameless || header.is_structured || !has_rows || header.shape.size() != 2) return false;
+  if (header.shape[1] > 4) return false;
+  if (header.members.front().kind == ValueKind::uint8) return true;
+  bool are_parts = true;
+  for_rows({{0, 0}, {0, 1}, {0, 2}}, [&are_parts](const double* row) {
+    are_parts = are_parts && std::all_of(row, row + 3, [](double c) { return c >= 0 && c <= 1; });
+  });
+  return are_parts;
 }
 
 void NumpyTable::refuse_lost_axis() const {
@@ -421,12 +445,15 @@ class NumpyFormat : public SnapshotFormat {
   }
   std::unique_ptr<Snapshot> open(const fs::path& path,
                                  const SnapshotOptions& options) const override {
+    const PathInFile place = path_in_file(path).value_or(PathInFile{path, ""});
     SnapshotInfo info;
-    info.files = {path};
+    info.files = {place.file};
     const bool has_new_names = names_columns_anew(options.columns);
     std::unique_ptr<const Table> table = std::make_unique<NumpyTable>(
-        path, has_new_names ? std::vector<std::string>() : options.columns, info, has_new_names);
-    table = with_new_names(std::move(table), options.columns, path);
+        place.file, has_new_names ? std::vector<std::string>() : options.columns, info,
+        has_new_names);
+    table = with_new_names(std::move(table), options.columns, place.file);
+    table = with_one_step(std::move(table), place.group, info);
     table = with_flat_positions(std::move(table), info.notes);
     return make_table_snapshot(std::move(table), std::move(info));
   }
@@ -438,6 +465,12 @@ class NumpyFormat : public SnapshotFormat {
     } catch (const DataError&) {
       return false;
     }
+  }
+  bool has_groups() const override { return true; }
+  std::vector<std::string> groups_in(const fs::path& path,
+                                     const std::string& group) const override {
+    SnapshotInfo info;
+    return group.empty() ? steps_in(NumpyTable(path, {}, info, false)) : std::vector<std::string>();
   }
   bool has_columns(const std::vector<std::string>&) const override { return true; }
 };

@@ -71,6 +71,48 @@ void rename_axes(std::vector<std::string>& names, const std::string& before,
   }
 }
 
+std::string without_quotes(std::string name) {
+  const bool is_quoted = name.size() > 2 && name.front() == '\'' && name.back() == '\'';
+  return is_quoted ? name.substr(1, name.size() - 2) : name;
+}
+
+bool is_vector(const std::string& name) {
+  const std::string field = canonical_field_name(name);
+  return field == "position" || field == "velocity" || field == "acceleration" ||
+         field == "magnetic_field" || equal_ignoring_case(name, "v");
+}
+
+// "Points:0" of ParaView, "pos_0", "vel[0]", "pos1": axes by number.
+void rename_numbered_axes(std::vector<std::string>& names) {
+  struct Form {
+    const char *before, *after;
+    char first;
+  };
+  constexpr std::array<Form, 7> forms = {{{":", "", '0'},
+                                          {"_", "", '0'},
+                                          {"[", "]", '0'},
+                                          {"(", ")", '0'},
+                                          {"_", "", '1'},
+                                          {"[", "]", '1'},
+                                          {"", "", '1'}}};
+  const std::vector<std::string> all = names;
+  for (const auto& [before, after, first] : forms) {
+    const std::string ending = std::string(before) + first + after;
+    for (const std::string& name : all) {
+      if (!ends_with(name, ending)) continue;
+      const std::string stem = name.substr(0, name.size() - ending.size());
+      if (*before != ':' && !is_vector(stem)) continue;
+      std::array<std::string, 3> numbers;
+      std::array<const char*, 3> axes{};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        numbers[axis] = static_cast<char>(first + static_cast<char>(axis));
+        axes[axis] = numbers[axis].c_str();
+      }
+      rename_axes(names, stem + before, axes, after, stem + " ");
+    }
+  }
+}
+
 // "smoothing length" is a name of ours but for its blank.
 std::string with_our_blanks(const std::string& name) {
   NameAndUnit parts = split_unit(name);
@@ -120,6 +162,10 @@ std::vector<std::string> names_of_columns(std::string_view line, std::size_t wan
     const std::vector<std::string_view> words = split_cells(line, candidate);
     // Lines of SPLASH end in a comma.
     const auto end = words.end() - (words.size() > 2 && words.back().empty() ? 1 : 0);
+    // One comma more than between the columns.
+    const bool has_end = words.size() == wanted + 1 && wanted > 1 && words.back().empty();
+    if (has_end && candidate != ' ')
+      return names_of_columns(line.substr(0, line.rfind(candidate)), wanted);
     const bool is_complete =
         words.size() == wanted &&
         std::none_of(words.begin() + 1, end, [](std::string_view word) { return word.empty(); });
@@ -143,20 +189,15 @@ std::vector<std::string> names_in_line(const std::string_view line, bool begins_
 }
 
 std::vector<std::string> in_our_words(std::vector<std::string> names) {
+  for (std::string& name : names)
+    name = without_quotes(std::move(name));
+  rename_numbered_axes(names);
   const bool have_numbers = are_numbered(names);
   for (std::size_t i = 0; i < names.size(); ++i) {
     names[i] = have_numbers ? names[i].substr(0, names[i].rfind('(')) : without_number(names[i], i);
   }
   for (const char* const stem : {"", "V", "v"})
     rename_axes(names, stem, {"Xc", "Yc", "Zc"}, "", stem);
-  const std::vector<std::string> before = names;
-  for (const std::string& name : before) {
-    const std::size_t colon = name.rfind(":0");
-    if (colon != std::string::npos && colon > 0 && colon + 2 == name.size()) {
-      const std::string stem = name.substr(0, colon);
-      rename_axes(names, stem, {":0", ":1", ":2"}, "", stem + " ");
-    }
-  }
   return names;
 }
 

@@ -154,6 +154,24 @@ void name_columns(const HeaderLines& header, TableLayout& layout) {
   }
 }
 
+// How many columns a line names, positions among them; 0 where it does not.
+std::size_t count_names(std::string_view line) {
+  for (const char separator : {',', ';', '\t', ' '}) {
+    std::vector<std::string_view> words = split_cells(line, separator);
+    if (words.back().empty()) words.pop_back();
+    if (name_positions(in_our_words({words.begin(), words.end()}))) return words.size();
+  }
+  return 0;
+}
+
+std::size_t count_other_names(const HeaderLines& header) {
+  if (!header.line.empty()) return count_names(header.line);
+  for (auto comment = header.comments.rbegin(); comment != header.comments.rend(); ++comment) {
+    if (const std::size_t count = count_names(without_blanks(*comment)); count > 0) return count;
+  }
+  return 0;
+}
+
 // Looks for a row that can be the first of the table.
 class LayoutSearch {
  public:
@@ -179,9 +197,10 @@ bool LayoutSearch::take(TableLayout layout) {
   layout.first_row = lines_.start();
   layout.lines_before = lines_.number() - 1;
   name_columns(header_, layout);
-  const bool has_names = !layout.names.empty();
-  const bool is_wanted = known_.columns == 0 ? has_names && name_positions(layout.names)
-                                             : layout.cells.size() == known_.columns;
+  if (layout.names.empty()) layout.other_names = count_other_names(header_);
+  const bool has_names = !layout.names.empty() || layout.other_names > 0;
+  const bool is_wanted =
+      known_.columns == 0 ? name_positions(layout.names) : layout.cells.size() == known_.columns;
   const bool may_be_first =
       header_.others == 0 || (header_.others == 1 && (has_names || known_.columns > 0));
   if (!found_ && !may_be_first) is_other_text_ = true;

@@ -17,6 +17,7 @@ namespace splotchcl {
 struct TableLayout {
   CellFormat format;
   std::vector<std::string> names;       // from the header; empty where there is none
+  std::size_t other_names = 0;          // of a header that names more or fewer columns
   std::vector<std::string_view> cells;  // of the first row
   std::uint64_t first_row = 0;          // its place in the file
   std::uint64_t lines_before = 0;

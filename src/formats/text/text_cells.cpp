@@ -52,6 +52,17 @@ std::optional<double> parse_plain(std::string_view text) {
   return is_number ? std::optional(value) : std::nullopt;
 }
 
+// Fortran leaves the letter out where an exponent has three digits: 1.5-103.
+std::optional<double> parse_without_e(std::string_view cell) {
+  constexpr std::size_t exponent = 4;
+  if (cell.size() < 2 * exponent - 2 || cell.size() > 64) return std::nullopt;
+  const std::size_t sign = cell.size() - exponent;
+  const bool is_one = (cell[sign] == '-' || cell[sign] == '+') &&
+                      cell.substr(0, sign).find('.') != std::string_view::npos;
+  if (!is_one) return std::nullopt;
+  return parse_plain(std::string(cell.substr(0, sign)) + "e" + std::string(cell.substr(sign)));
+}
+
 }  // namespace
 
 const char* CellFormat::name() const {
@@ -124,6 +135,7 @@ std::optional<double> parse_cell(std::string_view cell) {
     return parse_plain(with_point);
   }
   // Fortran's double precision: 1.5D+03.
+  if (const auto value = parse_without_e(cell)) return value;
   const std::size_t exponent = cell.find_first_of("dD");
   if (exponent == std::string_view::npos || exponent == 0 || cell.size() > 64) return std::nullopt;
   std::string with_e(cell);

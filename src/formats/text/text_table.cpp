@@ -13,7 +13,9 @@
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
+#include "formats/table_steps.h"
 #include "formats/text/table_layout.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
 
@@ -61,6 +63,15 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, TableLayout layout,
   const std::string path = file_->path().string();
   const std::size_t width = layout_.cells.size();
   const std::vector<std::string>& wanted = names.empty() ? layout_.names : names;
+  if (wanted.empty() && layout_.other_names > 0) {
+    throw DataError(
+        fmt::format("{}: line {} has {} columns, but the line of names above has {}; correct that "
+                    "line, or name "
+                    "them all in their order, as in read.columns = [\"x\", \"y\", \"z\", "
+                    "\"mass\"], \"-\" for those "
+                    "that are not needed",
+                    path, layout_.lines_before + 1, width, layout_.other_names));
+  }
   if (wanted.empty()) {
     throw DataError(fmt::format(
         "{}: a table of {} columns without a header that names them; name them in their order, as "
@@ -122,13 +133,22 @@ void TextTable::count_rows() {
 // all of whole numbers, of which the first is that of the rows.
 void TextTable::leave_out_line_of_counts(std::vector<std::string>& notes) {
   const bool counts_rows = parse_cell(layout_.cells.front()) == static_cast<double>(rows_ - 1);
-  if (!counts_rows || !are_whole(layout_.cells)) return;
+  if (!counts_rows || !are_whole({layout_.cells.front()})) return;
   TextLines lines = first_lines();
   lines.next();
   const std::uint64_t number = lines.number();
   while (lines.next() && is_comment_line(lines.line())) {
   }
-  if (are_whole(cells_of(lines, layout_.format))) return;
+  const std::vector<std::string_view> next = cells_of(lines, layout_.format);
+  if (are_whole(next)) return;
+  if (!are_whole(layout_.cells)) {
+    if (are_whole({next.front()})) return;  // identifiers
+    notes.push_back(fmt::format(
+        "line {} is taken for a particle; if its {} is the number of rows, leave it out with "
+        "read.skip_lines",
+        number, rows_ - 1));
+    return;
+  }
   notes.push_back(
       fmt::format("line {} is left out: it tells the number of rows, {}", number, rows_ - 1));
   layout_.first_row = lines.start();
@@ -234,24 +254,35 @@ class TextTableFormat : public SnapshotFormat {
   }
   std::unique_ptr<Snapshot> open(const std::filesystem::path& path,
                                  const SnapshotOptions& options) const override {
-    auto file = MappedFile::open(path);
+    const PathInFile place = path_in_file(path).value_or(PathInFile{path, ""});
+    auto file = MappedFile::open(place.file);
     const bool has_new_names = names_columns_anew(options.columns);
     std::vector<std::string> names = has_new_names ? std::vector<std::string>() : options.columns;
     const auto skipped = static_cast<std::uint64_t>(std::max(options.skip_lines, 0));
     std::optional<TableLayout> layout = find_layout(*file, {skipped, names.size()});
-    if (!layout) refuse_text(path, skipped, options.columns.size());
+    if (!layout) refuse_text(place.file, skipped, options.columns.size());
     SnapshotInfo info;
     info.format = fmt::format("text with {}", layout->format.name());
-    info.files = {path};
+    info.files = {place.file};
     info.notes = layout->notes;
     info.time = layout->time;
     info.box_size = layout->box;
     if (has_new_names && layout->names.empty()) names = numbered_names(layout->cells.size());
     std::unique_ptr<const Table> table =
         std::make_unique<TextTable>(std::move(file), std::move(*layout), names, info.notes);
-    table = with_new_names(std::move(table), options.columns, path);
+    table = with_new_names(std::move(table), options.columns, place.file);
+    table = with_one_step(std::move(table), place.group, info);
     table = with_flat_positions(std::move(table), info.notes);
     return make_table_snapshot(std::move(table), std::move(info));
+  }
+  bool has_groups() const override { return true; }
+  std::vector<std::string> groups_in(const std::filesystem::path& path,
+                                     const std::string& group) const override {
+    auto file = MappedFile::open(path);
+    std::optional<TableLayout> layout = find_layout(*file);
+    if (!group.empty() || !layout || layout->names.empty()) return {};
+    std::vector<std::string> notes;
+    return steps_in(TextTable(std::move(file), std::move(*layout), {}, notes));
   }
   bool has_columns(const std::vector<std::string>&) const override { return true; }
 };

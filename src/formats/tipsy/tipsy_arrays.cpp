@@ -120,7 +120,13 @@ std::vector<TipsyArray> find_tipsy_arrays(const fs::path& path, std::uint64_t pa
                       name, particles));
       continue;
     }
-    if (array.is_text || is_binary) arrays.push_back(std::move(array));
+    if (array.is_text || is_binary) {
+      arrays.push_back(std::move(array));
+    } else if (!canonical_field_name(array.name).empty()) {
+      notes.push_back(
+          fmt::format("array {} left out: it does not begin with the number of particles, {}", name,
+                      particles));
+    }
   }
   std::sort(arrays.begin(), arrays.end(),
             [](const TipsyArray& a, const TipsyArray& b) { return a.name < b.name; });

@@ -18,7 +18,8 @@ from ._core import UsageError
 from ._opencl import using_opencl
 from ._render import Progress, keys_of, open_drawable
 from ._scene import Scene
-from ._sources import Particles, Source
+from ._particles import Particles
+from ._sources import Source
 from ._units import CarriedUnit, unit_of
 
 

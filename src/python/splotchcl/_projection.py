@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ._maps import column
-from ._sources import Particles
+from ._particles import Particles
 
 _Array = np.ndarray[Any, Any]
 

@@ -15,7 +15,8 @@ from ._image import Image
 from ._opencl import using_opencl
 from ._scene import Scene
 from ._shown import Shown, settings_of
-from ._sources import Particles, Snapshot, Source
+from ._particles import Particles
+from ._sources import Snapshot, Source
 from ._untrusted import check_pictures_of
 
 if TYPE_CHECKING:

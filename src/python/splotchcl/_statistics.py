@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from ._core import UsageError
-from ._sources import ParticleType, Source
+from ._particle_type import ParticleType
+from ._sources import Source
 
 _Array = np.ndarray[Any, Any]
 

@@ -126,6 +126,25 @@ TEST_F(Hdf5Leads, ToOtherFoldersAreNotFollowedAndSaid) {
   }
 }
 
+TEST_F(Hdf5Leads, ToNothingAreSaid) {
+  {
+    const Hdf5Output part = create_hdf5(folder_ / "empty");
+    const Hdf5Output file = create_hdf5(folder_ / "links");
+    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 3, H5T_IEEE_F32LE);
+    H5Lcreate_soft("/gone/m", file.id(), "m", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external("empty", "h", file.id(), "h", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external("lost", "u", file.id(), "u", H5P_DEFAULT, H5P_DEFAULT);
+  }
+  EXPECT_THAT(
+      open_snapshot(folder_ / "links")->info().notes,
+      ::testing::UnorderedElementsAre("/h, a link to empty: h, is left out: nothing is there",
+                                      "/m, a link to /gone/m, is left out: nothing is there",
+                                      "/u, a link to lost: u, is left out: nothing is there"));
+  link_to("lost");
+  EXPECT_THAT(open()->info().notes,
+              Contains(HasSubstr("Density, a link to lost: PartType0/Density, is left out")));
+}
+
 // In groups of other names than Gadget's.
 TEST_F(Hdf5Leads, OfFilesWithoutAHeaderAreFollowedAndSaidToo) {
   for (const std::string group : {"", "particles/"}) {  // plain, and after sphNG

@@ -186,6 +186,46 @@ TEST_F(PlainHdf5, StepsInTimeAreNotDrawnTogether) {
   }
 }
 
+// What is kept beside the file for one step must not be taken for another.
+TEST_F(PlainHdf5, PositionsTellTheStepThatTheyAreOf) {
+  write_steps(path_, {"Step#0", "Step#1"});
+  const auto file_name = [this](const char* step) {
+    return require_field(open_snapshot(path_ / step)->info(), 0, "position").file_name;
+  };
+  EXPECT_EQ(file_name("Step#0"), "Step#0/x,Step#0/y,Step#0/z");
+  EXPECT_EQ(file_name("Step#1"), "Step#1/x,Step#1/y,Step#1/z");
+}
+
+TEST_F(PlainHdf5, StepsMayBeRowsOfATable) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4}, 3);
+    write_values(file, "step", {0, 0, 1, 1});
+  }
+  EXPECT_THAT(positions(*open_snapshot(path_), 0), ElementsAre(3, 3, 3, 4, 4, 4));
+  EXPECT_THAT(positions(*open_snapshot(path_ / "step=0"), 0), ElementsAre(1, 1, 1, 2, 2, 2));
+}
+
+TEST_F(PlainHdf5, PackedNumbersAreUnpackedAndComplexOnesSaid) {
+  {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, "pos", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, "mass", {100, 250}, 1, H5T_STD_I16LE);
+    write_attribute(file, "mass", "scale_factor", {0.01});
+    write_attribute(file, "mass", "add_offset", {2});
+    const Hdf5Handle<H5Tclose> complex(H5Tcreate(H5T_COMPOUND, 16));
+    H5Tinsert(complex.id(), "r", 0, H5T_NATIVE_DOUBLE);
+    H5Tinsert(complex.id(), "i", 8, H5T_NATIVE_DOUBLE);
+    const hsize_t rows = 2;
+    const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &rows, nullptr));
+    const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file.id(), "psi", complex.id(), space.id(),
+                                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  }
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(3, 4.5F));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("2 particles: psi")));
+}
+
 TEST_F(PlainHdf5, RecordsAndRowsOfOtherShapesAreRefusedForWhatTheyAre) {
   {
     const Hdf5Output file = create_hdf5(path_);
@@ -208,7 +248,7 @@ TEST_F(PlainHdf5, AStepThatIsNotThereIsRefusedWithThoseThatAre) {
   EXPECT_THAT(refusal(path_ / "Step#3"),
               HasSubstr("expected one of 4 steps in time, /Step#1 to /Step#10"));
   write_bytes(folder_ / "table", "x y z\n1 2 3\n4 5 6\n");
-  EXPECT_THAT(refusal(folder_ / "table" / "Step#0"), HasSubstr("without groups"));
+  EXPECT_THAT(refusal(folder_ / "table" / "Step#0"), HasSubstr("no steps in time in the table"));
 }
 
 TEST_F(PlainHdf5, NumbersOfOtherGroupsAreNoSteps) {

@@ -44,6 +44,16 @@ TEST_F(TextForm, CountsBeforeTheNamesAreLeftOut) {
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("the first row is line 4")));
 }
 
+TEST_F(TextForm, ALineThatMayTellTheNumberOfRowsIsSaid) {
+  const auto snapshot = open("2 1 0.5\n1.5 2 3\n4.5 5 6\n", {{"x", "y", "z"}});
+  EXPECT_EQ(snapshot->info().types.front().count, 3U);
+  EXPECT_THAT(snapshot->info().notes,
+              ElementsAre(AllOf(HasSubstr("line 1 is taken for a particle; if its 2 is the number"),
+                                HasSubstr("read.skip_lines"))));
+  EXPECT_THAT(open("2 1 0.5\n1 2 3\n4 5 6\n", {{"x", "y", "z"}})->info().notes,
+              ::testing::IsEmpty());
+}
+
 TEST_F(TextForm, TextBeforeNamesOfPositionsIsLeftOut) {
   const auto snapshot = open("A run of mine\nmade on a day\nx y z mass\n1 2 3 7\n4 5 6 8\n");
   EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
@@ -72,6 +82,41 @@ TEST_F(TextForm, RockstarSaysTheUnitsOfKindsOfColumns) {
   EXPECT_EQ(unit_of(*snapshot, "Mvir"), "Msun/h");
 }
 
+TEST_F(TextForm, MoreOrFewerNamesThanColumnsAreRefusedWithBothNumbers) {
+  for (const std::string header : {"x y z mass\n", "# x y z mass\n", "x,y,z,mass\n"}) {
+    EXPECT_THAT(refusal_of(header + "1 2 3 4 5\n6 7 8 9 0\n"),
+                AllOf(HasSubstr("line 2 has 5 columns, but the line of names above has 4"),
+                      HasSubstr("read.columns = [")))
+        << header;
+  }
+  EXPECT_THAT(refusal_of("x y z mass h u\n1 2 3 4 5\n"), HasSubstr("names above has 6"));
+}
+
+TEST_F(TextForm, NamesMayBeQuotedNumberedAndInLatin1) {
+  for (const std::string header :
+       {"'x','y','z','h'\n", "pos_0,pos_1,pos_2,h\n", "pos[0],pos[1],pos[2],h\n",
+        "Coordinates_1,Coordinates_2,Coordinates_3,h\n", "pos1,pos2,pos3,h,\n"}) {
+    const auto snapshot = open(header + "1,2,3,7\n4,5,6,8\n");
+    EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6)) << header;
+    EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(7, 8)) << header;
+  }
+  const auto latin = open(
+      "x,y,z,gr\xf6\xdf"
+      "e\n1,2,3,7\n4,5,6,8\n");
+  EXPECT_THAT(values_of(latin->read(0,
+                                    "gr\xc3\xb6\xc3\x9f"
+                                    "e")),
+              ElementsAre(7, 8));
+}
+
+TEST_F(TextForm, ExponentsOfThreeDigitsMayLackTheirLetter) {
+  const auto snapshot = open("x y z h\n1.5-103 2.5+002 -3.5D+01 1\n");
+  EXPECT_THAT(absolute_positions(*snapshot, 0),
+              ElementsAre(::testing::DoubleNear(0, 1e-6), 250, -35));
+  EXPECT_EQ(find_field(*open("x y z date\n1 2 3 2020-001\n")->info().find_type(0), "date"),
+            nullptr);
+}
+
 TEST_F(TextForm, OfColumnsOfOneNameTheFirstCounts) {
   const auto snapshot = open("x,y,z,x,mass\n1,2,3,40,7\n4,5,6,50,8\n");
   EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
@@ -94,6 +139,20 @@ TEST_F(TextForm, UnitsThatAreNamedCountBeforeThoseOfTheFile) {
   EXPECT_THAT(
       snapshot->info().notes,
       Contains(HasSubstr("position is taken to be in Mpc, as read.units says, not in kpc")));
+}
+
+TEST_F(TextForm, SystemsOfUnitsCountWhereTheFileSaysNothing) {
+  const std::string table = "x,y,z,mass [kg],rho,hsml\n1,2,3,7,1,1\n4,5,6,8,1,1\n";
+  const auto snapshot = open(table, {{}, 0, {"gadget"}});
+  EXPECT_EQ(unit_of(*snapshot, "position"), "a kpc/h");
+  EXPECT_EQ(unit_of(*snapshot, "smoothing_length"), "a kpc/h");
+  EXPECT_EQ(unit_of(*snapshot, "density"), "1e10 Msun/h (a kpc/h)^-3");
+  EXPECT_EQ(unit_of(*snapshot, "mass"), "kg");
+  EXPECT_THAT(snapshot->info().notes,
+              ElementsAre("units that the file states are kept: mass in kg"));
+  EXPECT_THAT(open(table, {{}, 0, {"si"}})->info().notes, ::testing::IsEmpty());
+  EXPECT_EQ(unit_of(*open(table, {{}, 0, {"position=pc", "cgs"}}), "position"), "pc");
+  EXPECT_THAT(refusal_of(table, {{}, 0, {"gadgets"}}), HasSubstr("or a system: gadget, cgs, si"));
 }
 
 TEST_F(TextForm, UnitsOfOtherFieldsAndOtherUnitsAreRefused) {

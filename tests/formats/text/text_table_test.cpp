@@ -140,7 +140,7 @@ TEST_F(TextTable, UnitsInAHeaderOfWhiteSpaceBelongToTheNameBeforeThem) {
 }
 
 TEST_F(TextTable, BracketsThatDoNotCloseAreNoUnits) {
-  EXPECT_THAT(refusal_of("x [kpc y z\n1 2 3\n"), HasSubstr("text, but no table"));
+  EXPECT_THAT(refusal_of("x [kpc y z\n1 2 3\n"), HasSubstr("names above has 4"));
   EXPECT_THAT(refusal_of("[ ( [\n1 2 3\n"), HasSubstr("no positions"));
 }
 
@@ -240,6 +240,7 @@ TEST_F(TextTable, ALineThatCountsTheRowsIsNoParticle) {
   const auto counted = open("2 0 2\n0.25 0.5 0.75\n1 2 3\n", names);
   EXPECT_THAT(positions_of_table(*counted), ElementsAre(0.25, 0.5, 0.75, 1, 2, 3));
   EXPECT_THAT(counted->info().notes, Contains(HasSubstr("line 1 is left out")));
+  EXPECT_EQ(open("2 0 2\n1 0.5 0.75\n1 2 3\n", names)->info().types[0].count, 2U);
   EXPECT_EQ(open("3 0 2\n0.25 0.5 0.75\n1 2 3\n", names)->info().types[0].count, 3U);
   EXPECT_EQ(open("2 0 0.5\n0.25 0.5 0.75\n1 2 3\n", names)->info().types[0].count, 3U);
 }

@@ -189,11 +189,15 @@ TEST(TipsyArrays, OtherFilesBesideItAreNoArrays) {
   write_tipsy(folder / "snap");
   write_bytes(folder / "snap.param", "dTheta = 0.7\n");
   write_bytes(folder / "snap.other", "5\n1\n2\n3\n4\n5\n");
+  write_bytes(folder / "snap.smooth", "3\n1\n2\n3\n");
   write_bytes(folder / "snap.vector", swapped(std::int32_t{4}) + std::string(48, 'x'));
   const auto snapshot = open_snapshot(folder / "snap");
   for (const char* name : {"param", "other", "vector"})
     EXPECT_FALSE(has_field(*snapshot, 0, name)) << name;
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("snap.vector left out")));
+  EXPECT_THAT(snapshot->info().notes,
+              Contains(HasSubstr("snap.smooth left out: it does not begin with the number of "
+                                 "particles, 4")));
 }
 
 TEST(TipsyArrays, OfThreeValuesPerParticleAreLeftOutOfTextToo) {

@@ -1,0 +1,65 @@
+"""Masks, identifiers and wind among stars, which conditions choose."""
+
+import numpy as np
+import pytest
+from odd import (
+    STARS,
+    assert_draws_alone,
+    assert_reads,
+    assert_reads_group,
+    column,
+    counts_of,
+    has_note,
+    hdf5,
+    mass_in_map,
+    of,
+)
+from splotchcl import DataError, Snapshot
+
+pytestmark = pytest.mark.usefixtures("program", "renderer")
+
+
+@of("a14_wind_particles")
+def test_wind_is_no_star_unless_a_condition_names_it(odd_files):
+    path = odd_files / "a14_wind.hdf5"
+    snapshot = Snapshot(path)
+    born = hdf5(path, "PartType4/GFM_StellarFormationTime")
+    assert counts_of(snapshot) == {"gas": 100, "stars": 400}
+    assert_reads_group(snapshot["stars"], path, "PartType4", STARS | {"smoothing_length": "StellarHsml"})
+    # AREPO's gas has no smoothing lengths: of a sphere with 64 particles.
+    of_sphere = (3 * 64 / 1e-2 / (4 * np.pi)) ** (1 / 3)
+    assert_reads(snapshot["gas"], smoothing_length=of_sphere)
+    stars = {"center": (50, 50, 50), "width": 40, "types": "stars"}
+    assert np.count_nonzero(born > 0) == mass_in_map(path, **stars)
+    assert has_note(column(path, **stars), "wind")
+    wind = "GFM_StellarFormationTime <= 0"
+    assert np.count_nonzero(born <= 0) == mass_in_map(path, **stars, where=wind)
+
+
+@of("a25_masks")
+def test_masks_select_by_conditions(odd_files):
+    path = odd_files / "a25_masks.hdf5"
+    masks = {"is_bound == 1": hdf5(path, "PartType0/is_bound"),
+             "flag8 == 2": hdf5(path, "PartType0/flag8") == 2}
+    assert [np.count_nonzero(mask) for mask in masks.values()] == [50, 33]
+    for condition, mask in masks.items():
+        assert_draws_alone(path, condition, mask, h=3)
+    mask = masks["is_bound == 1"]
+    np.save(odd_files / "mask.npy", mask)
+    np.save(odd_files / "ids.npy", hdf5(path, "PartType0/ParticleIDs")[mask])
+    by_list = {"component.0.select.ids": str(odd_files / "ids.npy")}
+    assert np.count_nonzero(mask) == mass_in_map(path, (50, 50, 50), 80, settings=by_list)
+    with pytest.raises(DataError, match=r"mask\.npy.*true and false.*save ids\[mask\] instead"):
+        column(path, (50, 50, 50), 80, settings={"component.0.select.ids": str(odd_files / "mask.npy")})
+
+
+@of("q01_ids_in_conditions")
+def test_identifiers_beyond_floats_select_exactly(odd_files):
+    path = odd_files / "q01_ids.hdf5"
+    ids = hdf5(path, "PartType0/ParticleIDs")
+    np.testing.assert_array_equal(Snapshot(path)["gas"]["id"], ids)
+    masks = {"ParticleIDs <= 2000000000": ids <= 2000000000, "ParticleIDs > 2000000000": ids > 2000000000,
+             "id == 1999999900": ids == 1999999900}
+    assert [np.count_nonzero(mask) for mask in masks.values()] == [200, 200, 1]
+    for condition, mask in masks.items():
+        assert_draws_alone(path, condition, mask, h=2)
