@@ -25,7 +25,7 @@ import time
 import numpy as np
 
 RUNS = 2
-PATIENCE = 60  # seconds: of what takes longer the first run is the only one
+PATIENCE = 20  # seconds: of what takes longer the first run is the only one
 SAMPLED = 300  # pixels that are compared with exact means
 FLOOR = 1e-3  # of the mean: errors of less than that are parts of it
 
@@ -193,8 +193,10 @@ def swiftsimio(p, pixels, backend):
     x, y = ((p["position"][:, k] - low) / p["side"] for k in (0, 1))
     h = p["support"] / p["side"] / kernel_gamma
     # A box side of 0: not periodic. Their first axis is x.
-    draw = lambda: backends_parallel[backend](x=x, y=y, m=p["mass"].astype(np.float32), h=h.astype(np.float32),
-                                              res=pixels, box_x=0.0, box_y=0.0)
+    arrays = {"x": x, "y": y, "m": p["mass"].astype(np.float32), "h": h.astype(np.float32)}
+    draw = lambda few=None: backends_parallel[backend](
+        **{name: values[:few] for name, values in arrays.items()}, res=pixels, box_x=0.0, box_y=0.0)
+    draw(100)  # compiles
     seconds, picture = best(draw)
     return seconds, picture.T / p["side"] ** 2
 
@@ -279,6 +281,8 @@ def draw(program, folder, pixels):
     p["side"], p["center"] = float(p["side"]), float(p["center"])
     version = __import__("importlib.metadata").metadata.version(program) if program != "splotchcl" else "this"
     for name, (function, kernel) in PROGRAMS[program].items():
+        if os.environ.get("PEERS_ONLY", name) != name:
+            continue
         try:
             seconds, picture = function(p, int(pixels))
         except (KeyError, TypeError):  # a backend that this version does not have
