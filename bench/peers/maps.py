@@ -141,6 +141,21 @@ def mean_of_gaussian(dx, dy, reach, pixel):
     return x * y / pixel**2
 
 
+class Nearby:
+    """Finds particles by their rows: those of usual reach among few, the others among all of them."""
+
+    def __init__(self, y, far):
+        self.most = np.quantile(far, 0.98)
+        order = np.argsort(y)
+        is_usual = far[order] <= self.most
+        self.usual, self.others = order[is_usual], order[~is_usual]
+        self.sorted = y[self.usual]
+
+    def to(self, y):
+        first, last = np.searchsorted(self.sorted, [y - self.most, y + self.most])
+        return np.concatenate([self.usual[first:last], self.others])
+
+
 def exact_values(p, kernel, pixels, chosen):
     """Of these pixels (row, column), in double precision."""
     pixel = p["side"] / pixels
@@ -148,14 +163,17 @@ def exact_values(p, kernel, pixels, chosen):
     x, y, reach, mass = p["position"][:, 0] - low, p["position"][:, 1] - low, p["support"], p["mass"]
     column = None if kernel is None else column_of(kernel)
     far = (2.5 if kernel is None else 1) * reach + pixel / 2
+    nearby = Nearby(y, far)
     values = []
     for row, at in chosen:
-        dx, dy = x - (at + 0.5) * pixel, y - (row + 0.5) * pixel
-        near = np.flatnonzero((np.abs(dx) < far) & (np.abs(dy) < far))
+        some = nearby.to((row + 0.5) * pixel)
+        dx, dy = x[some] - (at + 0.5) * pixel, y[some] - (row + 0.5) * pixel
+        is_near = (np.abs(dx) < far[some]) & (np.abs(dy) < far[some])
+        some, dx, dy = some[is_near], dx[is_near], dy[is_near]
         if kernel is None:
-            values.append((mass[near] * mean_of_gaussian(dx[near], dy[near], reach[near], pixel)).sum())
+            values.append((mass[some] * mean_of_gaussian(dx, dy, reach[some], pixel)).sum())
         else:
-            values.append(sum_of_columns(column, mass[near], dx[near], dy[near], reach[near], pixel))
+            values.append(sum_of_columns(column, mass[some], dx, dy, reach[some], pixel))
     return np.array(values)
 
 

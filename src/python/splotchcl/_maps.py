@@ -247,6 +247,10 @@ def column(
     written = {key for key, value in lengths.items() if _is_written(value)}
     with_units = {key for key, value in lengths.items() if _carries_unit(value)} - written
     keys |= {key: _numbers(key, lengths[key]) for key in lengths.keys() - with_units - written}
+    # In a scene 0 says that there is no such shape.
+    for name, count in {"channels": channels, "healpix": healpix, "profile": profile, "voxels": voxels}.items():
+        if count is not None and not np.any(count):
+            raise UsageError(f"{name}: found {count}, expected at least 1")
     cube = {"map.channels": channels, "map.velocity_range": velocity_range, "map.line_mass": line_mass}
     keys |= {key: value for key, value in cube.items() if value is not None}
     if velocity_range is not None:
