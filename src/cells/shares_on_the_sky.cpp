@@ -5,29 +5,13 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
+#include "cells/sky_rules.h"
 #include "scene/constants.h"
 
 namespace splotchcl {
 namespace {
 
 using namespace boost::qvm;
-
-// Points of Gauss and Legendre along an axis from 0 to 1, exact to the order 2 `count` - 1; errors
-// are the next even derivative over `divisor`, times the side of a patch to that power.
-struct Rule {
-  int count;
-  double divisor;
-  std::array<double, 4> places, weights;
-};
-
-constexpr std::array<Rule, 3> rules = {{
-    {1, 24, {0.5}, {1}},
-    {2, 4320, {0.2113248654051871, 0.7886751345948129}, {0.5, 0.5}},
-    {4,
-     1778112000,
-     {0.0694318442029737, 0.3300094782075719, 0.6699905217924281, 0.9305681557970263},
-     {0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269}},
-}};
 
 // Of cells that are no squares in the sky, the longer side over their mean side.
 constexpr double stretch = 1.2;
@@ -37,12 +21,6 @@ struct SeenPatch {
   Vec3 direction;  // to its middle
 };
 
-// How far out, as GaussianOnSky::square() has it, there is more than a hair of what may be wrong.
-double squares_that_count(const SkyAccuracy& accuracy) {
-  constexpr double hair = 1e-3;
-  return std::log(1 / std::clamp(hair * accuracy.tolerance * accuracy.floor, 1e-300, 1e-2));
-}
-
 class SkySpread {
  public:
   SkySpread(const SkyGrid& grid, const GaussianOnSky& particle, const SkyAccuracy& accuracy,
@@ -50,7 +28,7 @@ class SkySpread {
       : grid_(grid),
         particle_(particle),
         accuracy_(accuracy),
-        reach_(particle.reach_of(squares_that_count(accuracy))),
+        reach_(reach_that_counts(particle, accuracy)),
         shares_(shares) {}
 
   // Down to whole cells.
@@ -68,7 +46,7 @@ class SkySpread {
   // One in reach.
   void visit(const SeenPatch& seen) {
     const auto& [patch, direction] = seen;
-    if (const Rule* const rule = rule_for(patch, direction)) {
+    if (const SkyRule* const rule = rule_for(patch, direction)) {
       add(patch, *rule);
       return;
     }
@@ -93,7 +71,7 @@ class SkySpread {
 
   // The first one whose error is allowed; null where the patch is too large for all. Errors follow
   // from how steep the particle is there; far out, where little is left, they do not count.
-  const Rule* rule_for(const SkyPatch& patch, const Vec3& direction) const {
+  const SkyRule* rule_for(const SkyPatch& patch, const Vec3& direction) const {
     const double out = std::sqrt(particle_.square(direction));
     const double area =
         patch.width * patch.height *
@@ -105,9 +83,9 @@ class SkySpread {
     constexpr double least_slope = 2.5;  // of a Gaussian's derivatives in its middle
     const double slope = std::max(least_slope, 2 * out) * side;
     const double square = slope * slope, fourth = square * square;
-    const std::array<double, rules.size()> errors = {square, fourth, fourth * fourth};
-    for (std::size_t i = 0; i < rules.size(); ++i) {
-      if (errors[i] < allowed * rules[i].divisor) return &rules[i];
+    const std::array<double, sky_rules.size()> errors = {square, fourth, fourth * fourth};
+    for (std::size_t i = 0; i < sky_rules.size(); ++i) {
+      if (errors[i] < allowed * sky_rules[i].divisor) return &sky_rules[i];
     }
     return nullptr;
   }
@@ -129,38 +107,11 @@ class SkySpread {
     return parts;
   }
 
-  double value_at(const SkyPatch& patch, double x, double y) const {
-    const double on_face_x = patch.x + patch.width * x, on_face_y = patch.y + patch.height * y;
-    return particle_(grid_.direction(patch.face, on_face_x, on_face_y)) *
-           grid_.density(patch.face, on_face_x, on_face_y);
-  }
-
-  double sum_over_square(const SkyPatch& patch, const Rule& rule) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(rule.count); ++i) {
-      for (std::size_t j = 0; j < static_cast<std::size_t>(rule.count); ++j)
-        sum += rule.weights[i] * rule.weights[j] * value_at(patch, rule.places[i], rule.places[j]);
-    }
-    return sum;
-  }
-
-  // On both sides of the diagonal: squares that have shrunk to a corner.
-  double sum_over_triangles(const SkyPatch& patch, const Rule& rule) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(rule.count); ++i) {
-      for (std::size_t j = 0; j < static_cast<std::size_t>(rule.count); ++j) {
-        const double x = rule.places[i], y = (1 - x) * rule.places[j];
-        sum += rule.weights[i] * rule.weights[j] * (1 - x) *
-               (value_at(patch, x, y) + value_at(patch, 1 - x, 1 - y));
-      }
-    }
-    return sum;
-  }
-
-  void add(const SkyPatch& patch, const Rule& rule) {
-    const double mean = grid_.is_bent(patch) ? sum_over_triangles(patch, rules.back())
-                                             : sum_over_square(patch, rule);
-    const double part = patch.width * patch.height * mean;
+  void add(const SkyPatch& patch, const SkyRule& rule) {
+    double part = 0;
+    visit_points(grid_, patch, rule, [&](const Vec3& direction, double weight) {
+      part += weight * particle_(direction);
+    });
     if (!(part > 0)) return;
     const std::size_t cell = grid_.cell(patch.face, static_cast<int>(std::floor(patch.x)),
                                         static_cast<int>(std::floor(patch.y)));
@@ -189,6 +140,12 @@ void bring_to_one(std::size_t first, std::vector<CellShare>& shares) {
 }
 
 }  // namespace
+
+double reach_that_counts(const GaussianOnSky& particle, const SkyAccuracy& accuracy) {
+  constexpr double hair = 1e-3;
+  const double least = std::clamp(hair * accuracy.tolerance * accuracy.floor, 1e-300, 1e-2);
+  return particle.reach_of(std::log(1 / least));
+}
 
 void add_shares_on_the_sky(const SkyGrid& grid, const GaussianOnSky& particle,
                            const SkyAccuracy& accuracy, std::vector<CellShare>& shares) {

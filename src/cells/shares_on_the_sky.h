@@ -21,6 +21,9 @@ struct SkyAccuracy {
   double floor = 0;
 };
 
+// The angle from a particle's middle beyond which there is less than a hair of what may be wrong.
+double reach_that_counts(const GaussianOnSky& particle, const SkyAccuracy& accuracy);
+
 // The cells that a particle reaches, each once or more often. Where the grid has all of the sky,
 // the parts are brought to a sum of 1.
 void add_shares_on_the_sky(const SkyGrid& grid, const GaussianOnSky& particle,

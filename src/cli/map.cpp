@@ -222,7 +222,25 @@ std::string one_or_list(const std::string& numbers) {
   return numbers.find(',') == std::string::npos ? numbers : "[" + numbers + "]";
 }
 
+// In a scene 0 says that there is no such shape; who types it asks for one.
+void refuse_none(const char* option, const std::string& count) {
+  if (count.empty() || count.find_first_not_of("0, ") != std::string::npos) return;
+  throw UsageError(fmt::format("{}: found {}, expected at least 1", option, count));
+}
+
+std::string text_of(const std::optional<int>& count) {
+  return count ? std::to_string(*count) : "";
+}
+
+void check_counts(const MapOptions& options) {
+  refuse_none("--channels", text_of(options.channels));
+  refuse_none("--healpix", text_of(options.healpix));
+  refuse_none("--profile", text_of(options.profile));
+  refuse_none("--voxels", options.voxels);
+}
+
 void add_shape(const MapOptions& options, std::vector<std::string>& settings) {
+  check_counts(options);
   const auto add = [&settings](const char* key, const std::string& value) {
     if (!value.empty()) settings.push_back(fmt::format("map.{}={}", key, value));
   };

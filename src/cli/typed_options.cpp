@@ -13,7 +13,7 @@ struct KeyOfOption {
   const char* option;
 };
 
-constexpr std::array<KeyOfOption, 38> keys_of_options = {{
+constexpr std::array<KeyOfOption, 49> keys_of_options = {{
     {"types", "--types"},
     {"where", "--where"},
     {"field", "--field"},
@@ -52,6 +52,17 @@ constexpr std::array<KeyOfOption, 38> keys_of_options = {{
     {"map.velocity_range", "--velocity-range"},
     {"map.line_mass", "--line-mass"},
     {"map.slice", "--slice"},
+    {"map.noise", "--noise"},
+    {"map.healpix", "--healpix"},
+    {"map.healpix_order", "--order"},
+    {"map.shell", "--shell"},
+    {"map.tile", "--tile"},
+    {"map.voxels", "--voxels"},
+    {"map.profile", "--profile"},
+    {"map.histogram", "--histogram"},
+    {"map.bins", "--bins"},
+    {"map.x_range", "--x-range"},
+    {"map.y_range", "--y-range"},
 }};
 
 bool begins_with(const std::string& text, const std::string& start) {

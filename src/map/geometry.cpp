@@ -282,11 +282,10 @@ MapGeometry decide_geometry(const Scene& scene, const MapMatter& matter,
                 geometry.pixel * geometry.height / side_along(*geometry.box, geometry.up),
                 *geometry.depth / side_along(*geometry.box, geometry.forward)});
   if (boxes <= most_boxes) return geometry;
-  throw UsageError(
-      fmt::format("key map.width: the map reaches over {:.0f} times the periodic box, expected "
-                  "at most {:.0f}; "
-                  "make map.width or map.depth smaller, or set map.periodic to false",
-                  boxes, most_boxes));
+  throw UsageError(fmt::format(
+      "key map.width: the map reaches over {:.6g} times the periodic box, "
+      "expected at most {:.0f}; make map.width or map.depth smaller, or set map.periodic to false",
+      boxes, most_boxes));
 }
 
 }  // namespace splotchcl

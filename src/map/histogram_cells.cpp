@@ -46,13 +46,12 @@ std::array<double, 2> range_of(const BinnedField& field, const Amounts& amounts,
 
 // Logarithmic where no value is 0 or below.
 void set_range(const CellMatter& matter, const Amounts& amounts,
-               const std::optional<std::array<double, 2>>& said, BinnedField& field) {
+               const std::optional<std::array<double, 2>>& said, const char* key,
+               BinnedField& field) {
   const std::array<double, 2> range = said ? *said : range_of(field, amounts, matter.matter.count);
   if (!(range[1] > range[0])) {
     throw UsageError(
-        fmt::format("keys map.x_range and map.y_range: found {} to {}, expected a "
-                    "rising range",
-                    range[0], range[1]));
+        fmt::format("key {}: found {} to {}, expected a rising range", key, range[0], range[1]));
   }
   field.axis.first = range[0];
   field.axis.last = range[1];
@@ -78,8 +77,8 @@ CellMap draw_histogram(const CellMatter& matter, const ComponentFields& fields, 
   const Amounts amounts(
       matter.quantity, matter.matter.count, matter.weight_unit,
       [&](std::size_t i) { return std::isfinite(x.at(i)) && std::isfinite(y.at(i)); });
-  set_range(matter, amounts, matter.settings.x_range, x);
-  set_range(matter, amounts, matter.settings.y_range, y);
+  set_range(matter, amounts, matter.settings.x_range, "map.x_range", x);
+  set_range(matter, amounts, matter.settings.y_range, "map.y_range", y);
   const auto width = static_cast<std::size_t>(x.axis.cells),
              height = static_cast<std::size_t>(y.axis.cells);
   CellSums sums(amounts.kinds(), width * height);

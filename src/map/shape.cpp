@@ -58,15 +58,47 @@ void check_histogram(const MapSettings& settings) {
       fmt::format("key map.histogram: found {} fields, expected two", settings.histogram.size()));
 }
 
-// What has no meaning there.
-void check_quantity_of_cells(const MapSettings& settings) {
-  if (settings.slice) refuse_key("slice", "sums in cells");
-  if (settings.noise) refuse_key("noise", "a map in a plane");
+const char* words_of(MapShape shape) {
+  switch (shape) {
+    case MapShape::healpix:
+      return "a sphere";
+    case MapShape::sky:
+      return "a sky";
+    case MapShape::voxels:
+      return "voxels";
+    case MapShape::profile:
+      return "a profile";
+    case MapShape::histogram:
+      return "a histogram";
+    case MapShape::plane:
+    case MapShape::velocities:
+      break;
+  }
+  return "a plane";
+}
+
+const char* in_place_of_integral(MapShape shape) {
+  const bool is_seen = shape == MapShape::healpix || shape == MapShape::sky;
+  return is_seen ? "a mean: sums on a sphere are per solid angle, not along lines"
+                 : "a mean weighted by volume, which times a cell's volume is the integral in it";
+}
+
+// What has no meaning there, and what has.
+void check_quantity_of_cells(const MapSettings& settings, MapShape shape) {
+  const auto refuse = [shape](const char* key, const char* expected, const char* found = "it") {
+    throw UsageError(fmt::format("key map.{}: found {} beside {}, expected {}", key, found,
+                                 words_of(shape), expected));
+  };
+  if (settings.slice)
+    refuse("slice", "a map in a plane: other cells have what lies in all of them");
+  if (settings.noise)
+    refuse("noise",
+           "a map in a plane; map.quantity = \"counts\" tells how many particles cells have");
   if (settings.statistic == MapStatistic::integral)
-    refuse_key("statistic = \"integral\"", "\"mean\" or \"dispersion\"");
-  if (!settings.distance.empty()) refuse_key("distance", "a map in a plane");
+    refuse("statistic", in_place_of_integral(shape), "\"integral\"");
+  if (!settings.distance.empty()) refuse("distance", "a map in a plane");
   if (settings.depth || settings.lengths_with_units.count("depth") > 0)
-    refuse_key("depth", "map.shell, or a selection");
+    refuse("depth", "map.shell, or a selection");
 }
 
 }  // namespace
@@ -89,7 +121,7 @@ MapShape shape_of(const MapSettings& settings) {
   check_shell(settings, shape);
   check_sphere(settings, shape);
   check_histogram(settings);
-  if (is_made_of_cells(shape)) check_quantity_of_cells(settings);
+  if (is_made_of_cells(shape)) check_quantity_of_cells(settings, shape);
   return shape;
 }
 

@@ -5,12 +5,17 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
+#include <utility>
 
 #include "cells/healpix_grid.h"
 #include "cells/picture_of_the_sky.h"
 #include "cells/shares_on_the_sky.h"
+#include "cells/sky_lattice.h"
+#include "cells/sky_rules.h"
 #include "map/cell_map.h"
 #include "map/cell_sums.h"
+#include "parallel/for_blocks.h"
 #include "scene/constants.h"
 #include "splotchcl/error.h"
 
@@ -77,16 +82,15 @@ class SkySums {
       floors_.push_back(matter.settings.floor * total(kind) / (4 * pi));
   }
 
+  // Where wide particles have many cells together, they are summed up at points instead.
   void add_up() {
-    const auto find = [this](std::size_t image, std::vector<CellShare>& shares) {
-      const GaussianOnSky particle = particle_of(image);
-      add_shares_on_the_sky(grid_, particle, accuracy_of(image, particle), shares);
-    };
-    const auto expected = [this](std::size_t image) {
-      const double part = 0.5 * (1 - std::cos(particle_of(image).reach()));
-      return 4 + part * static_cast<double>(grid_.cells());
-    };
-    add_up_shares(amounts_, images_.source, find, expected, matter_.progress, sums_);
+    sort_by_width();
+    if (!pays_lattice()) take_all_as_narrow();
+    add_narrow();
+    std::vector<std::vector<double>> values;
+    for (std::size_t level = 0; level < wide_.size(); ++level)
+      values = with_level(static_cast<int>(level), std::move(values));
+    if (!values.empty()) add_lattice(SkyLattice(static_cast<int>(wide_.size()) - 1), values);
   }
 
   // Of the weights, per solid angle.
@@ -95,6 +99,155 @@ class SkySums {
   const CellSums& sums() const { return sums_; }
 
  private:
+  // Numbers of images, and which particles they are of.
+  struct Images {
+    std::vector<std::size_t> image;
+    std::vector<std::uint32_t> source;
+
+    void add(std::size_t number, std::uint32_t of) {
+      image.push_back(number);
+      source.push_back(of);
+    }
+  };
+
+  // What is narrower than a cell is not smooth enough for the rule of cells.
+  void sort_by_width() {
+    constexpr double cells_in_width = 1;
+    const double cell = std::sqrt(grid_.solid_angle(grid_.cells() / 2));
+    for (std::size_t image = 0; image < count(); ++image) {
+      const GaussianOnSky particle = particle_of(image);
+      const SkyAccuracy accuracy = accuracy_of(image, particle);
+      const int level = SkyLattice::level_for(particle.width());
+      const bool is_wide = particle.width() > cells_in_width * cell && is_small(level) &&
+                           lattice_error < accuracy.tolerance * accuracy.floor;
+      (is_wide ? of_level(level) : narrow_).add(image, images_.source[image]);
+      if (is_wide) cells_of_wide_ += cells_within(reach_that_counts(particle, accuracy));
+    }
+  }
+
+  // In memory, beside the cells.
+  bool is_small(int level) const {
+    constexpr std::size_t per_cell = 6, few = std::size_t{1} << 21, most = std::size_t{1} << 24;
+    return SkyLattice::points_of(level) <= std::min(most, per_cell * grid_.cells() + few);
+  }
+
+  void take_all_as_narrow() {
+    wide_.clear();
+    narrow_ = {};
+    for (std::size_t image = 0; image < count(); ++image)
+      narrow_.add(image, images_.source[image]);
+  }
+
+  Images& of_level(int level) {
+    const auto place = static_cast<std::size_t>(level);
+    if (wide_.size() <= place) wide_.resize(place + 1);
+    return wide_[place];
+  }
+
+  double cells_within(double reach) const {
+    return 0.5 * (1 - std::cos(reach)) * static_cast<double>(grid_.cells());
+  }
+
+  // Each cell takes as long from the finest lattice as from so many particles; a lattice is about
+  // the whole sky.
+  bool pays_lattice() const {
+    constexpr double particles = 6, points_of_cell = 16;
+    if (wide_.empty()) return false;
+    const auto cells = static_cast<double>(grid_.cells());
+    const auto points =
+        static_cast<double>(SkyLattice::points_of(static_cast<int>(wide_.size()) - 1));
+    return cells_of_wide_ > particles * (cells + points / points_of_cell);
+  }
+
+  void add_up(const Images& images, const FindShares& find, const ExpectedShares& expected,
+              CellSums& sums) {
+    const auto all = static_cast<double>(count());
+    const double before = done_, part = static_cast<double>(images.source.size()) / all;
+    add_up_shares(
+        amounts_, images.source, find, expected,
+        [&](double done) {
+          if (matter_.progress) matter_.progress(before + part * done);
+        },
+        sums);
+    done_ += part;
+  }
+
+  void add_narrow() {
+    if (narrow_.image.empty()) return;
+    const auto find = [this](std::size_t i, std::vector<CellShare>& shares) {
+      const GaussianOnSky particle = particle_of(narrow_.image[i]);
+      add_shares_on_the_sky(grid_, particle, accuracy_of(narrow_.image[i], particle), shares);
+    };
+    const auto expected = [this](std::size_t i) {
+      return 4 + cells_within(particle_of(narrow_.image[i]).reach());
+    };
+    add_up(narrow_, find, expected, sums_);
+  }
+
+  // Sums of wide particles at the points of a level, and of coarser ones, kind by kind.
+  std::vector<std::vector<double>> with_level(int level, std::vector<std::vector<double>> coarser) {
+    const Images& images = wide_[static_cast<std::size_t>(level)];
+    const SkyLattice lattice(level);
+    CellSums sums(amounts_.kinds(), lattice.points());
+    for (std::size_t kind = 0; kind < coarser.size(); ++kind)
+      sums.kinds[kind] = SkyLattice(level - 1).refined(coarser[kind]);
+    const auto find = [&](std::size_t i, std::vector<CellShare>& values) {
+      const GaussianOnSky particle = particle_of(images.image[i]);
+      const double reach = reach_that_counts(particle, accuracy_of(images.image[i], particle));
+      lattice.add_values(particle, reach, values);
+    };
+    const auto expected = [&](std::size_t i) {
+      const double part = 0.5 * (1 - std::cos(particle_of(images.image[i]).reach()));
+      return 4 + part * static_cast<double>(lattice.points());
+    };
+    if (!images.image.empty()) add_up(images, find, expected, sums);
+    return std::move(sums.kinds);
+  }
+
+  // Of all wide particles together, to which each cell's integral is brought where there are all
+  // cells.
+  void add_lattice(const SkyLattice& lattice, const std::vector<std::vector<double>>& values) {
+    CellSums added(amounts_.kinds(), grid_.cells());
+    for (const SkyPatch& face : grid_.faces()) {
+      const auto rows = static_cast<std::size_t>(face.height);
+      for_blocks(rows, 1, [&](std::size_t first, std::size_t last) {
+        for (std::size_t row = first; row < last; ++row)
+          add_row(lattice, values, face, static_cast<int>(row), added);
+      });
+    }
+    const double scale = grid_.has_all_of_the_sky() ? wide_weight() / sum_of(added.kinds[0]) : 1;
+    for (std::size_t kind = 0; kind < amounts_.kinds(); ++kind) {
+      for (std::size_t cell = 0; cell < grid_.cells(); ++cell)
+        sums_.kinds[kind][cell] += scale * added.kinds[kind][cell];
+    }
+  }
+
+  void add_row(const SkyLattice& lattice, const std::vector<std::vector<double>>& values,
+               const SkyPatch& face, int row, CellSums& added) const {
+    for (int x = 0; x < static_cast<int>(face.width); ++x) {
+      const SkyPatch cell = {face.face, static_cast<double>(x), static_cast<double>(row), 1, 1};
+      const std::size_t number = grid_.cell(face.face, x, row);
+      visit_points(grid_, cell, sky_rules.back(), [&](const Vec3& direction, double weight) {
+        const SkyLattice::Stencil stencil = lattice.stencil_at(direction);
+        for (std::size_t kind = 0; kind < values.size(); ++kind)
+          added.kinds[kind][number] += weight * stencil.of(values[kind]);
+      });
+    }
+  }
+
+  double wide_weight() const {
+    double weight = 0;
+    for (const Images& images : wide_) {
+      for (const std::uint32_t source : images.source)
+        weight += amounts_(source, 0);
+    }
+    return weight;
+  }
+
+  static double sum_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+  }
+
   double total(std::size_t kind) const {
     double sum = 0;
     for (const std::uint32_t source : images_.source)
@@ -123,6 +276,9 @@ class SkySums {
   ImagesAround images_;
   CellSums sums_;
   std::vector<double> floors_;
+  Images narrow_;
+  std::vector<Images> wide_;  // by the level of their lattice
+  double cells_of_wide_ = 0, done_ = 0;
 };
 
 }  // namespace
@@ -132,7 +288,7 @@ CellMap draw_sky(const CellMatter& matter, int width, int height) {
   const std::unique_ptr<SkyGrid> grid = grid_of(settings, width, height);
   const Amounts amounts(matter.quantity, matter.matter.count, matter.weight_unit,
                         [&](std::size_t i) { return matter.matter.is_good(i); });
-  check_cells(static_cast<double>(grid->cells()), amounts.kinds(),
+  check_cells(static_cast<double>(grid->cells()), 2 * amounts.kinds(),
               settings.healpix > 0 ? "key map.healpix" : "key image.size");
   SkySums sums(matter, *grid, amounts);
   sums.add_up();

@@ -51,21 +51,6 @@ struct Noise {
   std::shared_ptr<const Map> map;
 };
 
-DrawFrame drawing(const std::string& device, bool by_reference, const Progress& progress,
-                  std::optional<Renderer>& renderer) {
-  if (by_reference) {
-    return [&progress](const Frame& frame) {
-      const auto tell = [&progress](double part) { progress("drawing with the reference", part); };
-      return reference::render(frame, tell).to_float();
-    };
-  }
-  RendererOptions options;
-  options.device = device;
-  options.progress = [&progress](double fraction) { progress("drawing", fraction); };
-  renderer.emplace(options);
-  return [&renderer](const Frame& frame) { return renderer->render(frame); };
-}
-
 const char* name_of(MapShape shape) {
   switch (shape) {
     case MapShape::plane:
@@ -98,23 +83,73 @@ std::vector<std::tuple<std::string, std::string, std::vector<double>>> axes_of(c
   return axes;
 }
 
-py::tuple draw_map_object(const Scene& scene, const Source& source, const std::string& device,
-                          bool by_reference, py::object report) {
-  const Progress progress(std::move(report));
-  std::vector<std::string> notes;
-  auto map = std::make_shared<Map>(without_python([&] {
-    const std::lock_guard<Turn> mine(source.turn());
-    source.refresh();
-    notes = source.snapshot().info().notes;
-    std::optional<Renderer> renderer;
-    // Sums in cells need no device.
-    const bool is_drawn = !is_made_of_cells(shape_of(scene.map));
-    const DrawFrame draw =
-        is_drawn ? drawing(device, by_reference, progress, renderer) : DrawFrame();
-    return draw_map(scene, source.snapshot(), draw, notes, progress.function());
-  }));
-  return py::make_tuple(std::move(map), std::move(notes));
-}
+// A device, or the reference; it keeps compiled kernels and buffers from map to map.
+class MapDrawer {
+ public:
+  MapDrawer(std::string device, bool by_reference, bool certify)
+      : by_reference_(by_reference), certify_(certify), device_(std::move(device)) {}
+
+  // A map, and notes.
+  py::tuple draw(const Scene& scene, const Source& source, py::object report) {
+    const Progress progress(std::move(report));
+    std::vector<std::string> notes;
+    auto map = std::make_shared<Map>(without_python([&] {
+      const std::lock_guard<Turn> mine(turn_);
+      const std::lock_guard<Turn> mine_to_read(source.turn());
+      source.refresh();
+      notes = source.snapshot().info().notes;
+      const ProgressDuring during(*this, progress);
+      // Sums in cells need no device.
+      const bool is_drawn = !is_made_of_cells(shape_of(scene.map));
+      return draw_map(scene, source.snapshot(), is_drawn ? drawing() : DrawFrame(), notes,
+                      progress.function());
+    }));
+    return py::make_tuple(std::move(map), std::move(notes));
+  }
+
+ private:
+  class ProgressDuring {
+   public:
+    ProgressDuring(MapDrawer& drawer, const Progress& progress) : drawer_(drawer) {
+      drawer_.progress_ = &progress;
+    }
+    ~ProgressDuring() { drawer_.progress_ = nullptr; }
+    ProgressDuring(const ProgressDuring&) = delete;
+    ProgressDuring& operator=(const ProgressDuring&) = delete;
+
+   private:
+    MapDrawer& drawer_;
+  };
+
+  void tell(const char* what, double part) const {
+    if (progress_ != nullptr) (*progress_)(what, part);
+  }
+
+  DrawFrame drawing() {
+    if (by_reference_) {
+      return [this](const Frame& frame) {
+        const auto tell_part = [this](double part) { tell("drawing with the reference", part); };
+        return reference::render(frame, tell_part).to_float();
+      };
+    }
+    if (!renderer_) start();
+    return [this](const Frame& frame) { return renderer_->render(frame); };
+  }
+
+  void start() {
+    RendererOptions options;
+    options.device = device_;
+    options.certify = certify_;
+    options.progress = [this](double part) { tell("drawing", part); };
+    renderer_.emplace(options);
+  }
+
+  bool by_reference_, certify_;
+  std::string device_;
+  Turn turn_;
+  const Progress* progress_ = nullptr;  // while it draws
+  std::optional<Renderer> renderer_;
+};
 
 double read_length(const std::string& text, const Scene& scene, const Source& source,
                    const std::string& what) {
@@ -172,7 +207,9 @@ void bind_maps(py::module_& module) {
       .def_readonly("particles", &Map::particles)
       .def_readonly("bad_particles", &Map::bad_particles)
       .def("save", &write);
-  module.def("draw_map", &draw_map_object);
+  py::class_<MapDrawer>(module, "MapDrawer")
+      .def(py::init<std::string, bool, bool>())
+      .def("draw", &MapDrawer::draw);
   module.def("read_map_length", &read_length);
 }
 

@@ -78,7 +78,9 @@ Key lengths_key(const std::string& name, const ValueType<V>& numbers_of, const c
                          numbers_of.read](const toml::node& node) -> std::optional<Lengths> {
     if (const auto values = read_numbers(node)) return Lengths(*values);
     const auto words = text().read(node);
-    return words ? std::optional<Lengths>(*words) : std::nullopt;
+    // A setting that is no array of as many numbers comes again as a text.
+    const bool is_array = words && words->find('[') != std::string::npos;
+    return words && !is_array ? std::optional<Lengths>(*words) : std::nullopt;
   };
   const auto write = [write_numbers = numbers_of.write](const Lengths& lengths) {
     const auto* const words = std::get_if<std::string>(&lengths);

@@ -75,7 +75,7 @@ class ShortTexts : public StageTest {
     for (const ProgramSource& program : programs) {
       SCOPED_TRACE(program.defines + program.file);
       // Optimizing takes most of the time, and warns of nothing that is looked for.
-      ProgramText text = short_text_of(program, device().device);
+      ProgramText text = short_text_of(text_of(program, device().device));
       text.options += " -cl-opt-disable";
       EXPECT_NO_THROW(expect_no_warnings(build_program(device().context, text, program.file)));
     }

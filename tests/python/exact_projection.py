@@ -3,7 +3,6 @@ precision, with numpy alone and nothing of splotchcl's."""
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass, field
 
@@ -20,19 +19,14 @@ _erfc = np.frompyfunc(math.erfc, 1, 1)
 AXES = {"xy": ((0, 1), (1, 1), (2, -1)), "xz": ((0, 1), (2, 1), (1, 1)), "yz": ((1, 1), (2, 1), (0, -1))}
 
 
-def gaussian_of_axis(edges: np.ndarray, width: float) -> np.ndarray:
-    """How much of a Gaussian of this width around 0 lies between each two edges."""
+def gaussian_of_axis(edges: np.ndarray, width: np.ndarray) -> np.ndarray:
+    """How much of Gaussians of these widths around 0 lies between each two edges, along the last axis."""
     # What lies outside of each edge, on its own side: so little keeps all its digits.
     outside = _erfc(np.abs(edges / width)).astype(float)
-    left, right = edges[:-1], edges[1:]
+    left, right = edges[..., :-1], edges[..., 1:]
     one_side = np.abs(np.diff(outside))
-    across = 2 - outside[:-1] - outside[1:]
+    across = 2 - outside[..., :-1] - outside[..., 1:]
     return np.where((left < 0) & (right > 0), across, one_side) / 2
-
-
-def gaussian_profile(distance: float, width: float) -> float:
-    """Of a Gaussian along one axis, its whole being 1."""
-    return math.exp(-((distance / width) ** 2)) / (math.sqrt(math.pi) * width)
 
 
 def spline(q: np.ndarray) -> np.ndarray:
@@ -88,23 +82,38 @@ class Matter:
     fields: dict[str, np.ndarray] = field(default_factory=dict)
 
 
-def images(offset: np.ndarray, reach: float, view: View) -> list[np.ndarray]:
-    """Of a particle all that may be seen."""
-    half = np.array([view.width * view.pixel / 2 + reach, view.height * view.pixel / 2 + reach, np.inf])
-    if view.is_slice:
-        half[2] = reach
-    elif view.depth is not None:
-        half[2] = view.depth / 2
+def shifts_along(place: np.ndarray, half: np.ndarray, side: float | None) -> tuple[np.ndarray, np.ndarray]:
+    """Of periodic images within so far of the middle: which particle's each is, and where it lies."""
+    if side is None:
+        near = np.flatnonzero(np.abs(place) <= half)
+        return near, place[near]
+    first, last = np.ceil((-half - place) / side), np.floor((half - place) / side)
+    counts = np.maximum(last - first + 1, 0).astype(int)
+    which = np.repeat(np.arange(len(place)), counts)
+    in_order = np.arange(len(which)) - np.repeat(np.cumsum(counts) - counts, counts)
+    return which, place[which] + (first[which] + in_order) * side
+
+
+def in_pixels(place: np.ndarray, width: np.ndarray, edges: np.ndarray, side: float | None) -> np.ndarray:
+    """How much of each particle lies between each two edges along one axis, with all of its images."""
+    which, at = shifts_along(place, edges[-1] + REACH * width, side)
+    shares = np.zeros((len(place), len(edges) - 1))
+    np.add.at(shares, which, gaussian_of_axis(edges - at[:, None], width[which, None]))
+    return shares
+
+
+def along_the_line(place: np.ndarray, width: np.ndarray, view: View) -> np.ndarray:
+    """How often each particle counts; of slices, with what its kernel has in the plane."""
     sides = view.sides()
-    if sides is None:
-        shifts = [np.zeros(3)]
+    side = None if sides is None else float(sides[2])
+    if view.is_slice:
+        which, at = shifts_along(place, REACH * width, side)
+        parts = np.exp(-((at / width[which]) ** 2)) / (math.sqrt(math.pi) * width[which])
     else:
-        counts = [range(math.ceil((-h - x) / s), math.floor((h - x) / s) + 1)
-                  for x, h, s in zip(offset, half, sides)]
-        shifts = [np.array(n) * sides for n in itertools.product(*counts)]
-    places = [offset + shift for shift in shifts]
-    return [p for p in places if abs(p[0]) <= half[0] and abs(p[1]) <= half[1]
-            and -half[2] <= p[2] < half[2]]
+        half = math.inf if view.depth is None else view.depth / 2
+        which, at = shifts_along(place, np.full(len(place), half), side)
+        parts = np.where(at < half, 1.0, 0.0)
+    return np.bincount(which, parts, minlength=len(place))
 
 
 @dataclass
@@ -120,22 +129,20 @@ class Sums:
 
 
 def project(matter: Matter, view: View, amounts: list[np.ndarray]) -> list[Sums]:
-    """Of each of these, one number a particle."""
+    """Of each of these, one number a particle. Kernels are products along three axes, and so are
+    their periodic images."""
+    right, up, away = view.offsets(matter.positions).T
+    width = KERNEL_WIDTH * matter.smoothing_lengths
+    sides = view.sides() if view.box is not None else (None, None, None)
     x_edges, y_edges = view.edges()
+    columns = in_pixels(right, width, x_edges, sides[0])
+    rows = in_pixels(up, width, y_edges, sides[1])
+    counted = along_the_line(away, width, view)
     area = view.pixel**2
-    sums = [Sums(np.zeros((view.height, view.width))) for _ in amounts]
-    offsets = view.offsets(matter.positions)
-    for i, h in enumerate(matter.smoothing_lengths):
-        width = KERNEL_WIDTH * float(h)
-        for place in images(offsets[i], REACH * width, view):
-            of_plane = gaussian_profile(place[2], width) if view.is_slice else 1.0
-            shape = of_plane * np.outer(gaussian_of_axis(y_edges - place[1], width),
-                                        gaussian_of_axis(x_edges - place[0], width))
-            peak = of_plane / max(area, math.pi * width**2)
-            for total, amount in zip(sums, amounts):
-                total.values += float(amount[i]) * shape / area
-                total.brightest = max(total.brightest, abs(float(amount[i])) * peak)
-    return sums
+    peak = counted / np.maximum(area, math.pi * width**2)
+    is_seen = (columns.max(axis=1, initial=0) > 0) & (rows.max(axis=1, initial=0) > 0)
+    return [Sums(np.einsum("p,py,px->yx", amount * counted, rows, columns, optimize=True) / area,
+                 float((np.abs(amount) * peak)[is_seen].max(initial=0))) for amount in amounts]
 
 
 @dataclass

@@ -11,13 +11,8 @@ import exact_projection as exact
 import splotchcl
 from splotchcl import Particles
 
-SEEDS = range(300 if "SPLOTCHCL_LONG_TESTS" in os.environ else 40)
+SEEDS = range(3000 if "SPLOTCHCL_LONG_TESTS" in os.environ else 300)
 TOLERANCES = (1e-2, 1e-3, 1e-4)
-
-
-@pytest.fixture(autouse=True)
-def needs_a_device(renderer):
-    pass
 
 
 @dataclass
@@ -38,7 +33,7 @@ class SetUp:
             **{name: values.astype(np.float32) for name, values in fields.items()}
         )
 
-    def map(self, tolerance: float) -> np.ndarray:
+    def map(self, tolerance: float, renderer: splotchcl.Renderer) -> np.ndarray:
         view = self.view
         settings = {"map.floor": self.floor, "map.periodic": view.box is not None}
         if view.box is not None:
@@ -47,7 +42,7 @@ class SetUp:
             self.particles(), self.quantity, self.weight, types="gas", statistic=self.statistic,
             slice=view.is_slice, view=view.axes, center=list(map(float, view.center)),
             width=view.width * view.pixel, depth=view.depth, size=(view.width, view.height),
-            tolerance=tolerance, settings=settings,
+            tolerance=tolerance, settings=settings, device=renderer,
         )
         return drawn.values.astype(float)
 
@@ -170,10 +165,10 @@ def worst_error(drawn: np.ndarray, wanted: exact.Expected) -> float:
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_maps_keep_their_tolerance(seed):
+def test_maps_keep_their_tolerance(renderer, seed):
     one = set_up(seed)
     for tolerance in TOLERANCES:
-        drawn = one.map(tolerance)
+        drawn = one.map(tolerance, renderer)
         if one.statistic == "dispersion":
             drawn = drawn**2
         error = worst_error(drawn, expected(one, tolerance))
@@ -181,9 +176,10 @@ def test_maps_keep_their_tolerance(seed):
 
 
 @pytest.mark.parametrize("size", [64, 500])
-def test_a_map_of_a_whole_box_has_all_of_its_particles(universe, size):
+def test_a_map_of_a_whole_box_has_all_of_its_particles(renderer, universe, size):
     """Kernels go on across the faces, and what ends of splats leave out is put back on average."""
-    drawn = splotchcl.column(universe, "counts", types="gas", size=(size, size), tolerance=1e-4)
+    drawn = splotchcl.column(universe, "counts", types="gas", size=(size, size), tolerance=1e-4,
+                             device=renderer)
     assert drawn.values.sum(dtype=float) == pytest.approx(17000, rel=1e-6)
 
 

@@ -189,6 +189,18 @@ def test_the_origin_may_lie_within_a_kernel():
     assert worst(drawn(arrays, healpix=4).values, on_sphere(arrays, 4)) < 1e-3
 
 
+@pytest.mark.parametrize(("field", "statistic"), [(None, None), ("charge", "mean")])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_wide_particles_are_summed_up_at_points_within_the_tolerance(tolerance, field, statistic):
+    arrays = matter(7, count=1000, least=0.5, most=5.0)
+    settings = {"map.periodic": False}
+    exactly, quickly = (drawn(arrays, field, statistic=statistic, healpix=8, tolerance=t, settings=settings).values
+                        for t in (0, tolerance))
+    size = np.ones(1) if field else exactly
+    assert (quickly != exactly).any()
+    assert worst(quickly, exactly, size=size) < tolerance
+
+
 @pytest.mark.parametrize("order", ["ring", "nested"])
 def test_a_small_particle_is_in_the_pixel_of_its_direction(order):
     healpy = pytest.importorskip("healpy")
@@ -373,6 +385,10 @@ def test_shapes_have_figures(tmp_path, what, ending):
     ({"voxels": 4, "field": "charge", "statistic": "integral"}, "integral"),
     ({"voxels": 4, "depth": 1.0}, "map.depth"),
     ({"voxels": 8192}, "GB of memory"),
+    ({"voxels": [4, 0, 4]}, "map.voxels"),
+    ({"voxels": 0}, "voxels: found 0, expected at least 1"),
+    ({"profile": 0}, "profile: found 0, expected at least 1"),
+    ({"center": [1.0, 2.0]}, "map.center"),
     ({"histogram": ("x",)}, "expected two"),
     ({"histogram": ("x", "nothing")}, "nothing"),
     ({"width": "2deg"}, "an angle"),

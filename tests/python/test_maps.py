@@ -248,3 +248,10 @@ def test_units_that_need_a_scale_factor_are_noted(renderer, arrays):
 def test_units_of_the_scene_come_before_those_of_arrays(renderer, arrays):
     settings = {"map.length_unit": "Mpc", "map.mass_unit": "g"}
     assert map_of(arrays, "kpc", "Msun", settings=settings).length_unit == "Mpc"
+
+
+def test_a_renderer_draws_the_same_maps_as_a_new_device(renderer, particles):
+    drawn = [splotchcl.column(particles, "temperature", size=(16, 16), device=device)
+             for device in (None, renderer, renderer)]
+    assert np.array_equal(drawn[0].values, drawn[1].values, equal_nan=True)
+    assert np.array_equal(drawn[0].values, drawn[2].values, equal_nan=True)

@@ -1,11 +1,12 @@
 #include "device/opencl/kernel_text.h"
 
 #include <algorithm>
-#include <cctype>
+#include <array>
+#include <cstddef>
 #include <map>
-#include <set>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "splotchcl/error.h"
@@ -100,34 +101,71 @@ class Flattener {
   std::map<std::string, std::vector<Conditions>> known_;  // around what has been put in
 };
 
-bool is_of_word(char letter) {
-  return letter == '_' || std::isalnum(static_cast<unsigned char>(letter)) != 0;
+constexpr bool is_of_word(char letter) {
+  return letter == '_' || (letter >= '0' && letter <= '9') || (letter >= 'A' && letter <= 'Z') ||
+         (letter >= 'a' && letter <= 'z');
 }
 
-// Beginning with a letter or a digit; of comments, too.
-std::set<std::string_view> words_of(std::string_view text) {
-  std::set<std::string_view> words;
-  for (auto begin = text.begin(); begin != text.end();) {
-    begin = std::find_if(begin, text.end(), is_of_word);
-    const auto end = std::find_if_not(begin, text.end(), is_of_word);
-    if (begin != end) words.insert({&*begin, static_cast<std::size_t>(end - begin)});
-    begin = end;
-  }
-  return words;
+// Of "#define NAME value".
+std::string_view name_in(std::string_view line) {
+  const std::string_view name = line.substr(line.find(' ') + 1);
+  return name.substr(0, name.find_first_of(" \n"));
 }
+
+// Each line of definitions, and whether a text mentions its name. Texts have ten thousand words:
+// only those are looked up that begin as a name does.
+class Mentions {
+ public:
+  explicit Mentions(std::string_view defines) {
+    while (!defines.empty()) {
+      const std::string_view line = defines.substr(0, defines.find('\n') + 1);
+      lines_.push_back({line, false});
+      places_[name_in(line)].push_back(lines_.size() - 1);
+      begins_[place_of(name_in(line).front())] = true;
+      defines.remove_prefix(line.size());
+    }
+  }
+
+  // Comments count.
+  void look_in(std::string_view text) {
+    for (auto begin = text.begin(); begin != text.end();) {
+      begin = std::find_if(begin, text.end(), is_of_word);
+      const auto end = std::find_if_not(begin, text.end(), is_of_word);
+      if (begin != end && begins_[place_of(*begin)])
+        note({&*begin, static_cast<std::size_t>(end - begin)});
+      begin = end;
+    }
+  }
+
+  std::string mentioned_lines() const {
+    std::string lines;
+    for (const auto& [line, is_mentioned] : lines_) {
+      if (is_mentioned) lines += line;
+    }
+    return lines;
+  }
+
+ private:
+  static std::size_t place_of(char letter) { return static_cast<unsigned char>(letter); }
+
+  void note(std::string_view word) {
+    const auto known = places_.find(word);
+    if (known == places_.end()) return;
+    for (const std::size_t place : known->second)
+      lines_[place].second = true;
+  }
+
+  std::vector<std::pair<std::string_view, bool>> lines_;
+  std::map<std::string_view, std::vector<std::size_t>> places_;  // of lines, by name
+  std::array<bool, 256> begins_{};
+};
 
 }  // namespace
 
 std::string mentioned(const std::string& defines, const std::string& text) {
-  const std::set<std::string_view> words = words_of(text);
-  std::string lines;
-  for (std::string_view rest = defines; !rest.empty();) {
-    const std::string_view line = rest.substr(0, rest.find('\n') + 1);
-    const std::string_view name = line.substr(line.find(' ') + 1);
-    if (words.count(name.substr(0, name.find_first_of(" \n"))) > 0) lines += line;
-    rest.remove_prefix(line.size());
-  }
-  return lines;
+  Mentions mentions(defines);
+  mentions.look_in(text);
+  return mentions.mentioned_lines();
 }
 
 std::string flattened(const std::string& source) {

@@ -86,12 +86,14 @@ Program ProgramCache::get(const ProgramSource& source) {
 
 ProgramCache::Entry ProgramCache::entry_of(const ProgramSource& source) const {
   const compute::device device = context_.get_device();
-  const bool is_short = is_pocl(device);
   Entry entry;
-  entry.text = is_short ? short_text_of(source, device) : text_of(source, device);
+  entry.text = text_of(source, device);
+  if (is_pocl(device)) {
+    entry.fallback = entry.text;
+    entry.text = short_text_of(*entry.fallback);
+  }
   entry.key = key_of(device, entry.text);
   entry.name = source.file;
-  if (is_short) entry.fallback = text_of(source, device);
   return entry;
 }
 

@@ -53,8 +53,7 @@ ProgramText text_of(const ProgramSource& source, const compute::device& device) 
           source.defines + mentioned(source.variant, text) + text};
 }
 
-ProgramText short_text_of(const ProgramSource& source, const compute::device& device) {
-  const ProgramText text = text_of(source, device);
+ProgramText short_text_of(const ProgramText& text) {
   return {joined(without_declarations, text.options),
           flattened(include_of("kernels/common/builtins.h")) + text.source};
 }

@@ -10,10 +10,11 @@ import numpy as np
 
 from ._core import UsageError
 from ._projection import Grid, sum_of
+from ._render import Renderer
 
 
 @contextmanager
-def inside(package: Any, *, tolerance: float | None = None, device: str | None = None) -> Iterator[None]:
+def inside(package: Any, *, tolerance: float | None = None, device: str | Renderer | None = None) -> Iterator[None]:
     """``with inside(pynbody):`` lets ``pynbody.plot.sph.image`` draw with splotchcl.
 
     What pynbody decides stays its own: quantities, weights, units, sizes, colors. Its kernel gives way to a
@@ -26,8 +27,9 @@ def inside(package: Any, *, tolerance: float | None = None, device: str | None =
         pynbody.
     tolerance : float, optional
         As for `column`.
-    device : str, optional
-        A part of an OpenCL device's name, or "reference".
+    device : str or Renderer, optional
+        A part of an OpenCL device's name, "reference", or what draws, which pictures after the first one
+        take less time by.
 
     Raises
     ------

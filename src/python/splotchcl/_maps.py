@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import tempfile
 from collections.abc import Mapping, Sequence
-from contextlib import nullcontext
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,8 +14,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_number, is_number
 from ._core import UsageError
-from ._opencl import using_opencl
-from ._render import Progress, keys_of, open_drawable
+from ._render import Progress, Renderer, draw_map, keys_of, open_drawable
 from ._scene import Scene
 from ._particles import Particles
 from ._sources import Source
@@ -168,7 +166,7 @@ def column(
     histogram: tuple[str, str] | None = None,
     bins: int | tuple[int, int] | None = None,
     tolerance: float | None = None,
-    device: str | None = None,
+    device: str | Renderer | None = None,
     settings: Mapping[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> Map:
@@ -177,7 +175,8 @@ def column(
     Parameters
     ----------
     scene, particles, size, tolerance, device, settings, progress
-        As for `render`. The map shows one component: the first, or ``map.component``.
+        As for `render`. The map shows one component: the first, or ``map.component``. ``device`` may be
+        a `Renderer`, which many small maps are drawn by in less time.
     field : str, optional
         None: the surface density. "counts", "line_of_sight_velocity", or a field or a formula of
         fields, "log10(density * temperature)", of which the weighted mean is shown.
@@ -249,6 +248,10 @@ def column(
     written = {key for key, value in lengths.items() if _is_written(value)}
     with_units = {key for key, value in lengths.items() if _carries_unit(value)} - written
     keys |= {key: _numbers(key, lengths[key]) for key in lengths.keys() - with_units - written}
+    # In a scene 0 says that there is no such shape.
+    for name, count in {"channels": channels, "healpix": healpix, "profile": profile, "voxels": voxels}.items():
+        if count is not None and not np.any(count):
+            raise UsageError(f"{name}: found {count}, expected at least 1")
     cube = {"map.channels": channels, "map.velocity_range": velocity_range, "map.line_mass": line_mass}
     keys |= {key: value for key, value in cube.items() if value is not None}
     if velocity_range is not None:
@@ -285,12 +288,7 @@ def column(
             what.scene[key] = _read_lengths(key, lengths[key], what.scene, what.source)
             if not what.scene["map.axis_unit"] and "map.width" not in written:
                 what.scene["map.axis_unit"] = _written_unit(lengths[key])
-    by_reference = device == "reference"
-    name = "" if device is None or by_reference else device
-    with nullcontext() if by_reference else using_opencl():
-        drawn, more = _core.draw_map(
-            what.scene._scene, what.source._source, name, by_reference, progress
-        )
+    drawn, more = draw_map(what, device, progress)
     # A map is of one component, whatever else there is.
     not_drawn = _core.tell_not_drawn(what.scene._scene, what.source._source)
     notes = [note for note in what.notes if note != not_drawn]

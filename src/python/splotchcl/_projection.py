@@ -10,6 +10,7 @@ import numpy as np
 
 from ._maps import column
 from ._particles import Particles
+from ._render import Renderer
 
 _Array = np.ndarray[Any, Any]
 
@@ -33,7 +34,7 @@ def sum_of(
     amount: _Array,
     grid: Grid,
     tolerance: float | None,
-    device: str | None,
+    device: str | Renderer | None,
 ) -> _Array:
     """Of amounts of either sign, per area of a map seen from above (of a slice or voxels per volume).
 

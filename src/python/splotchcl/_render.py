@@ -135,6 +135,8 @@ def _notes_of(source: Source) -> list[str]:
 class Renderer:
     """A device that draws; keeps compiled kernels and buffers from picture to picture.
 
+    `column` takes it as ``device``, and keeps them from map to map.
+
     Python's lock is free while it draws. Threads take turns at one renderer; two renderers draw at
     the same time.
 
@@ -159,6 +161,7 @@ class Renderer:
         with nullcontext() if self._by_reference else using_opencl():
             name = "" if device is None or self._by_reference else device
             self._drawer = _core.Drawer(name, self._by_reference, certify)
+            self._map_drawer = _core.MapDrawer(name, self._by_reference, certify)
 
     def render(
         self,
@@ -199,6 +202,10 @@ class Renderer:
             )
         return next(iter(pictures.values()))
 
+    def _draw_map(self, what: Drawable, progress: Progress | None) -> tuple[_core.Map, list[str]]:
+        with nullcontext() if self._by_reference else using_opencl():
+            return self._map_drawer.draw(what.scene._scene, what.source._source, progress)
+
     def _draw(self, what: Drawable, progress: Progress | None) -> dict[str, Image]:
         check_pictures_of(what.scene._scene)
         with nullcontext() if self._by_reference else using_opencl():
@@ -209,6 +216,18 @@ class Renderer:
             suffix: Image(picture, scene, what.notes + notes, stats, what.source)
             for suffix, picture in pictures.items()
         }
+
+
+def draw_map(
+    what: Drawable, device: str | Renderer | None, progress: Progress | None
+) -> tuple[_core.Map, list[str]]:
+    """A map by a device, and notes."""
+    if isinstance(device, Renderer):
+        return device._draw_map(what, progress)
+    by_reference = device == "reference"
+    with nullcontext() if by_reference else using_opencl():
+        drawer = _core.MapDrawer("" if device is None or by_reference else device, by_reference, False)
+        return drawer.draw(what.scene._scene, what.source._source, progress)
 
 
 def render(

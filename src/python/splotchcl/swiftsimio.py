@@ -19,6 +19,7 @@ import numpy as np
 from ._core import UsageError
 from ._objects import reach_of_swift
 from ._projection import Grid, sum_of
+from ._render import Renderer
 
 __all__ = [
     "project_gas", "project_pixel_grid", "render_gas", "render_voxel_grid", "slice_gas", "slice_pixel_grid",
@@ -38,7 +39,7 @@ def project_gas(
     periodic: bool = True,
     *,
     tolerance: float | None = None,
-    device: str | None = None,
+    device: str | Renderer | None = None,
 ) -> Any:
     """A field of the gas summed up along z, per area: a cosmo_array, with x as its first index."""
     return project_pixel_grid(
@@ -60,7 +61,7 @@ def project_pixel_grid(
     periodic: bool = True,
     *,
     tolerance: float | None = None,
-    device: str | None = None,
+    device: str | Renderer | None = None,
 ) -> Any:
     """The same of any group of particles."""
     view = _View(data, project, region, rotation_matrix, rotation_center, periodic)
@@ -86,7 +87,7 @@ def slice_gas(
     mask: Any = None,
     *,
     tolerance: float | None = None,
-    device: str | None = None,
+    device: str | Renderer | None = None,
 ) -> Any:
     """A field of the gas in a plane, per volume: a cosmo_array, with x as its first index."""
     return slice_pixel_grid(
@@ -109,7 +110,7 @@ def slice_pixel_grid(
     mask: Any = None,
     *,
     tolerance: float | None = None,
-    device: str | None = None,
+    device: str | Renderer | None = None,
 ) -> Any:
     """The same of any group of particles."""
     if backend != "sph":
@@ -138,7 +139,7 @@ def render_gas(
     backend: str = "scatter",
     *,
     tolerance: float | None = None,
-    device: str | None = None,
+    device: str | Renderer | None = None,
 ) -> Any:
     """A field of the gas in voxels, per volume: a cosmo_array with the axes x, y and z. Kernels are exact, whatever the tolerance."""
     return render_voxel_grid(
@@ -160,7 +161,7 @@ def render_voxel_grid(
     backend: str = "scatter",
     *,
     tolerance: float | None = None,
-    device: str | None = None,
+    device: str | Renderer | None = None,
 ) -> Any:
     """The same of any group of particles."""
     view = _View(data, project, region, rotation_matrix, rotation_center, periodic)
@@ -240,7 +241,7 @@ class _View:
         return width, height
 
     def draw(
-        self, grid: Grid, mask: Any, tolerance: float | None, device: str | None, power: int
+        self, grid: Grid, mask: Any, tolerance: float | None, device: str | Renderer | None, power: int
     ) -> Any:
         chosen = np.s_[...] if mask is None else mask
         grid.center = [*self.middle[:2], grid.center[2]]
