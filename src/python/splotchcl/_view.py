@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 
 from ._core import DataError, UsageError
+from ._particles import Particles
 from ._render import keys_of, open_drawable
 from ._scene import Scene
 from ._shown import Shown
-from ._sources import Particles, Snapshot
+from ._sources import Snapshot
 from ._view_server import ViewServer
 
 if TYPE_CHECKING:
