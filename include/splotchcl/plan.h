@@ -215,8 +215,10 @@ struct FramePlan {
   int slabs = 0;
   LayerLimits layers;
   // Parts of the whole picture that are drawn before all of it, one after the other: where a frame
-  // is bright, only a drawing tells what it needs, and the plan is refined by that.
+  // is bright, only a drawing tells what it needs, and the plan is refined by that. Empty once they
+  // have been: what is drawn by a plan that has some is seen by nobody.
   std::vector<Rectangle> tried_parts;
+  bool is_trial() const { return !tried_parts.empty(); }
 
   // Whether the drawn splats have errors that add up, for the check to be told of them. The cut
   // values at pixel centers that the original program draws have none without coarse grids.

@@ -268,8 +268,7 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   settings.width = frame.width;
   settings.height = frame.height;
   settings.crop = frame.crop;
-  // Nobody sees a part that is tried.
-  settings.crop_alone = !plan.tried_parts.empty();
+  settings.crop_alone = plan.is_trial();
   settings.channels = static_cast<int>(channels_of_layer(plan));
   // What a certified frame shows is worked out in every pixel, not foretold.
   settings.narrowest = plan.certify ? 0 : narrowest_detail(clouds, layer.first, layer.end, frame);

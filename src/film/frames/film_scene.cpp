@@ -99,16 +99,21 @@ Camera upright(Camera camera, const ImageSettings& image) {
   return camera;
 }
 
-bool shows_the_same(const std::optional<Camera>& a, const std::optional<Camera>& b) {
-  return a && b && a->position == b->position && a->look_at == b->look_at &&
-         a->field_of_view_degrees == b->field_of_view_degrees && a->projection == b->projection;
-}
+// What is left of a camera that was suggested.
+struct SuggestedView {
+  bool place = false;  // where it is, and what it looks at
+  bool zoom = false;
+};
 
-// Whether a setting says where the camera is, or how it looks at what is near.
-bool places_camera(const std::string& setting) {
-  const std::string key = setting.substr(0, setting.find('='));
-  return key == "camera.position" || key == "camera.look_at" || key == "camera.center" ||
-         key == "camera.through_clouds";
+SuggestedView suggested_view(const SceneWithSnapshot& opened) {
+  if (!opened.suggested || !opened.suggested->camera || !opened.scene.camera) return {};
+  const Camera &now = *opened.scene.camera, &suggested = *opened.suggested->camera;
+  SuggestedView left;
+  left.place = now.position == suggested.position && now.look_at == suggested.look_at &&
+               now.through_clouds == suggested.through_clouds;
+  left.zoom = now.field_of_view_degrees == suggested.field_of_view_degrees &&
+              now.projection == suggested.projection;
+  return left;
 }
 
 }  // namespace
@@ -119,8 +124,7 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   WatchedFiles opening;  // a scene file may change later on: it is read only once
   opening.add(path);
   SceneWithSnapshot opened = open_scene(path, settings, ranks);
-  const bool has_suggested_view =
-      opened.suggested && shows_the_same(opened.scene.camera, opened.suggested->camera);
+  const SuggestedView view = suggested_view(opened);
   scene_ = std::move(opened.scene);
   notes_ = std::move(opened.notes);
   watch_files();
@@ -128,12 +132,9 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
-  if (has_suggested_view && scene_.time.is_set() && !target.is_approached)
+  if (view.place && view.zoom && scene_.time.is_set() && !target.is_approached)
     show_whole_course(scene_);
-  if (opened.suggested && scene_.camera &&
-      std::none_of(settings.begin(), settings.end(), places_camera)) {
-    stand_amid_matter(*scene_.camera, !target.name.empty());
-  }
+  if (view.place) stand_amid_matter(*scene_.camera, !target.name.empty());
   // A scene file that says how long its film is says what it is, too.
   if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {
     const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);
