@@ -134,9 +134,20 @@ void ComponentFields::select() {
     selected_[t] = select_particles(component_, types_[t], snapshot_.own_part(), periodic_box_);
     if (spread_) add_up_counts(t);
   }
+  note_lost_ids();
   if (count() > 0) return;
   note(fmt::format("select and exclude leave none of its {} particles; nothing of it is drawn",
                    count_before_selecting()));
+}
+
+// Of a part of the particles most are elsewhere.
+void ComponentFields::note_lost_ids() {
+  const bool is_whole = std::all_of(types_.begin(), types_.end(), [](const TypeFields& type) {
+    return type.info().particles_per_drawn == 1;
+  });
+  if (spread_ || !is_whole) return;
+  const std::string lost = tell_lost_ids(component_, types_, snapshot_);
+  if (!lost.empty()) note(lost);
 }
 
 void ComponentFields::add_up_counts(std::size_t type) {

@@ -81,6 +81,7 @@ class ComponentFields {
   Column rim_factors(const TypeFields& type) const;
   using Read = std::function<Column(const TypeFields&)>;
   Column collected(const std::string& what, const Read& read, std::size_t width = 1) const;
+  void note_lost_ids();
   void add_up_counts(std::size_t type);
   std::size_t count_of(std::size_t type) const;
   std::size_t own_count_of(std::size_t type) const;

@@ -305,6 +305,43 @@ std::string tell_found_catalog(const Component& component, const TypeFields& fie
   return {};
 }
 
+namespace {
+
+std::string tell_lost_ids(const std::string& file, const std::vector<TypeFields>& types,
+                          const Snapshot& snapshot) {
+  Ids wanted = wanted_ids(snapshot, file);
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  std::vector<bool> is_there(wanted.size(), false);
+  for (const TypeFields& type : types) {
+    for (const std::uint64_t id : type.ids()) {
+      const auto place = std::lower_bound(wanted.begin(), wanted.end(), id);
+      if (place != wanted.end() && *place == id)
+        is_there[static_cast<std::size_t>(place - wanted.begin())] = true;
+    }
+  }
+  const auto lost = std::count(is_there.begin(), is_there.end(), false);
+  if (lost == 0) return {};
+  return fmt::format("{} of the {} ids in {} are those of none of its particles", lost,
+                     wanted.size(), file);
+}
+
+}  // namespace
+
+std::string tell_lost_ids(const Component& component, const std::vector<TypeFields>& types,
+                          const Snapshot& snapshot) {
+  std::string notes, numbers;
+  for (const TypeFields& type : types)
+    numbers += fmt::format(" {}", type.info().type);
+  for (const std::string& file : {component.select.id_file, component.exclude.id_file}) {
+    if (file.empty()) continue;
+    const std::string note =
+        snapshot.memory().get<std::string>(fmt::format("lost ids of types{} in {}", numbers, file),
+                                           [&] { return tell_lost_ids(file, types, snapshot); });
+    if (!note.empty()) notes += (notes.empty() ? "" : "; ") + note;
+  }
+  return notes;
+}
+
 const FieldInfo* find_wind(const Component& component, const ParticleTypeInfo& type) {
   constexpr int stars = 4;
   if (type.type != stars) return nullptr;

@@ -30,6 +30,11 @@ void check_selection(const Component& component, const TypeFields& fields,
 std::string tell_found_catalog(const Component& component, const TypeFields& fields,
                                const Snapshot& snapshot);
 
+// How many of the ids that the component lists no particle of its types has, as a note; empty where
+// all are there. Found once per snapshot, which must be whole.
+std::string tell_lost_ids(const Component& component, const std::vector<TypeFields>& types,
+                          const Snapshot& snapshot);
+
 // The field that tells wind from stars where these particles of IllustrisTNG hold both; null where
 // they do not, or where the component has a condition of its own on it.
 const FieldInfo* find_wind(const Component& component, const ParticleTypeInfo& type);

@@ -13,6 +13,7 @@ from odd import (
     hdf5,
     mass_in_map,
     of,
+    total_of,
 )
 from splotchcl import DataError, Snapshot
 
@@ -63,3 +64,14 @@ def test_identifiers_beyond_floats_select_exactly(odd_files):
     assert [np.count_nonzero(mask) for mask in masks.values()] == [200, 200, 1]
     for condition, mask in masks.items():
         assert_draws_alone(path, condition, mask, h=2)
+
+
+# A list of places in the file, in place of ids, finds some of them.
+def test_ids_that_no_particle_has_are_counted(odd_files):
+    path = odd_files / "a25_masks.hdf5"
+    ids = hdf5(path, "PartType0/ParticleIDs")
+    for shift, lost in ((0, 0), (len(ids) // 2, len(ids) // 2)):
+        np.save(odd_files / "list.npy", ids.astype(">i8") + shift)
+        drawn = column(path, (50, 50, 50), 80, settings={"component.0.select.ids": str(odd_files / "list.npy")})
+        assert total_of(drawn) == pytest.approx(len(ids) - lost, rel=1e-4)
+        assert has_note(drawn, f"{lost} of the {len(ids)} ids", "none of its particles") == (lost > 0)

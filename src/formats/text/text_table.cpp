@@ -57,12 +57,23 @@ class TextTable : public Table {
   std::uint64_t rows_ = 0;
 };
 
+// As old Macs wrote them: to us the file is one line.
+bool has_old_line_ends(const MappedFile& file) {
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  return text.find('\r') != std::string_view::npos && text.find('\n') == std::string_view::npos;
+}
+
 TextTable::TextTable(std::shared_ptr<const MappedFile> file, TableLayout layout,
                      const std::vector<std::string>& names, std::vector<std::string>& notes)
     : file_(std::move(file)), layout_(std::move(layout)) {
   const std::string path = file_->path().string();
   const std::size_t width = layout_.cells.size();
   const std::vector<std::string>& wanted = names.empty() ? layout_.names : names;
+  if (wanted.empty() && has_old_line_ends(*file_)) {
+    throw DataError(path +
+                    ": its lines end in carriage returns alone, expected line feeds; convert them, "
+                    "as tr '\\r' '\\n' does");
+  }
   if (wanted.empty() && layout_.other_names > 0) {
     throw DataError(
         fmt::format("{}: line {} has {} columns, but the line of names above has {}; correct that "

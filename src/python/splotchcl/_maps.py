@@ -201,7 +201,7 @@ def column(
         converted. The map's `length_unit` is that of the width, or of the center.
     unit : str, optional
         Of the map, such as "Msun/pc^2"; None: what the snapshot's units give, or those that arrays
-        carry, without a and h. What they do not say is said by ``settings={"map.length_unit": "a kpc/h", "map.mass_unit": "1e10 Msun/h"}``.
+        carry, without a and h. What they do not say is said by ``settings={"read.units": "gadget"}``, or by ``{"read.units": {"mass": "Msun"}}``.
     palette : str, optional
         Of figures.
     noise : bool

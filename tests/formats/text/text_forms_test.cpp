@@ -92,6 +92,17 @@ TEST_F(TextForm, MoreOrFewerNamesThanColumnsAreRefusedWithBothNumbers) {
   EXPECT_THAT(refusal_of("x y z mass h u\n1 2 3 4 5\n"), HasSubstr("names above has 6"));
 }
 
+TEST_F(TextForm, LinesThatEndInCarriageReturnsAloneAreToldSo) {
+  EXPECT_THAT(refusal_of("x,y,z\r1,2,3\r4,5,6\r"), HasSubstr("carriage returns alone"));
+  EXPECT_THAT(absolute_positions(*open("x,y,z\r\n1,2,3\r\n4,5,6\r\n"), 0),
+              ElementsAre(1, 2, 3, 4, 5, 6));
+}
+
+TEST_F(TextForm, CommentsBehindRowsAreRefusedForTheirCells) {
+  EXPECT_THAT(refusal_of("x y z\n1 2 3 # one\n4 5 6 # two\n"),
+              HasSubstr("line 2 has 5 columns, but the line of names above has 3"));
+}
+
 TEST_F(TextForm, NamesMayBeQuotedNumberedAndInLatin1) {
   for (const std::string header :
        {"'x','y','z','h'\n", "pos_0,pos_1,pos_2,h\n", "pos[0],pos[1],pos[2],h\n",
