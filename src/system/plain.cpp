@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <iterator>
 #include <random>
-#include <sstream>
 
 #include "system/system.h"
 
@@ -29,20 +27,6 @@ bool keep_from_children(const int (&ends)[2]) {
                                    [](int end) { return ::fcntl(end, F_SETFD, FD_CLOEXEC) == 0; });
   if (!is_kept) std::for_each(std::begin(ends), std::end(ends), ::close);
   return is_kept;
-}
-
-// Of a file that a loader was given, or of a program by its name alone in PATH: a folder there that
-// is no whole name may be a stranger's.
-std::filesystem::path whole_name(const std::filesystem::path& name) {
-  if (name.has_parent_path()) return std::filesystem::absolute(name);
-  const char* const path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    const std::filesystem::path file = std::filesystem::path(folder) / name;
-    std::error_code ignored;
-    if (file.is_absolute() && std::filesystem::exists(file, ignored)) return file;
-  }
-  return {};
 }
 
 }  // namespace
@@ -71,10 +55,13 @@ std::string machine_identity() {
   return "";
 }
 
+// The loader's name, where it is whole: some loaders have for a program what its caller claims, and
+// what begins at a folder may begin at a stranger's.
 std::filesystem::path file_around(const void* address) {
   Dl_info found = {};
   if (::dladdr(address, &found) == 0 || found.dli_fname == nullptr) return {};
-  return whole_name(found.dli_fname);
+  const std::filesystem::path name = found.dli_fname;
+  return name.is_absolute() ? name : std::filesystem::path();
 }
 
 std::filesystem::path own_program() {

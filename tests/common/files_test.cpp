@@ -117,7 +117,7 @@ TEST_F(UnfinishedFiles, OfProcessesThatRunStay) {
 }
 
 TEST_F(UnfinishedFiles, OfAnEarlierProcessWithTheNumberOfOneThatRunsAreRemoved) {
-  ASSERT_GT(own_.start, 1U) << "no /proc";
+  if (own_.start == 0) GTEST_SKIP() << "the system does not tell when a process began";
   EXPECT_FALSE(stays(left("a.png", own_number(), "1", own_.machine)));
 }
 
