@@ -293,12 +293,23 @@ void take_cells(CellMap cells, const MapUnits& units, Map& map, std::vector<std:
   notes.insert(notes.end(), cells.notes.begin(), cells.notes.end());
 }
 
+void note_rough_places(const PlacedParticles& placed, std::vector<std::string>& notes) {
+  if (placed.rough == 0) return;
+  notes.push_back(fmt::format(
+      "{} of {} particles lie so far from the origin of coordinates that single precision has "
+      "their "
+      "places only to more than a pixel and their smoothing length; subtract the middle from "
+      "positions first",
+      placed.rough, placed.count()));
+}
+
 void draw_pixels(const MapPlan& plan, const Scene& scene, const ComponentFields& fields,
-                 const DrawFrame& draw, Map& map) {
+                 const DrawFrame& draw, Map& map, std::vector<std::string>& notes) {
   const MapSettings& settings = scene.map;
   const MapGeometry& geometry = plan.geometry;
   const PlacedParticles placed =
       place_particles(plan.matter, geometry, scene.kernel.width, settings.slice);
+  note_rough_places(placed, notes);
   WeightedValues weighted(placed, plan.quantity, settings.floor, geometry, scene.kernel.width,
                           fields.particles_per_drawn());
   const SumPicture picture = {geometry.width, geometry.height, scene.kernel.width, scene.tolerance};
@@ -368,7 +379,7 @@ Map draw_map(const Scene& written, const Snapshot& snapshot, const DrawFrame& dr
   if (is_made_of_cells(shape)) {
     take_cells(draw_cells(plan, one, shape, fields, progress), plan.units, map, notes);
   } else {
-    draw_pixels(plan, one, fields, draw, map);
+    draw_pixels(plan, one, fields, draw, map, notes);
   }
   note_particles(plan, settings, map, notes);
   return map;
