@@ -312,6 +312,7 @@ void draw_pixels(const MapPlan& plan, const Scene& scene, const ComponentFields&
   note_rough_places(placed, notes);
   WeightedValues weighted(placed, plan.quantity, settings.floor, geometry, scene.kernel.width,
                           fields.particles_per_drawn());
+  if (settings.noise) weighted.keep_weight_sums();
   const SumPicture picture = {geometry.width, geometry.height, scene.kernel.width, scene.tolerance};
   map.width = geometry.width;
   map.height = geometry.height;
