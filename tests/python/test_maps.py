@@ -263,3 +263,12 @@ def test_places_that_single_precision_does_not_have_are_noted(renderer, middle, 
     gas = Particles().gas(position=places, smoothing_length=np.full(50, 0.1), mass=np.ones(50))
     drawn = splotchcl.column(gas, types="gas", center=[middle] * 3, width=2, size=(8, 8), device=renderer)
     assert any("50 of 50 particles lie so far" in note for note in drawn.notes) == is_noted
+
+
+def test_values_that_single_precision_has_few_digits_for_are_noted(renderer, particles):
+    settings = {"map.length_unit": "cm", "map.mass_unit": "g", "map.unit": "5e37 g/cm^2"}
+    drawn = splotchcl.column(particles, types="gas", size=(8, 8), device=renderer, settings=settings)
+    assert any("single precision has fewer digits" in note for note in drawn.notes)
+    settings["map.unit"] = "1e20 g/cm^2"
+    drawn = splotchcl.column(particles, types="gas", size=(8, 8), device=renderer, settings=settings)
+    assert drawn.notes == []
