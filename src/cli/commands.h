@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,14 +66,14 @@ int run_view(const ViewOptions& options, Console& console);
 
 struct MapOptions : DrawOptions {
   std::vector<std::filesystem::path> outputs;
-  std::string quantity, statistic, weight, view, unit, distance, sky,
-      contours;  // empty: not given
-  std::string velocity_range;
-  std::string order, shell, voxels, histogram, bins, x_range, y_range;
-  std::optional<int> channels, healpix, profile;
-  std::optional<double> line_mass;
-  std::string depth;  // a length, which may have a unit
-  bool slice = false, noise = false, tile = false;
+  // Of the options that stand for keys of [map], by key (map_options.h); empty: not given.
+  std::map<std::string, std::string> texts;
+  std::map<std::string, bool> flags;
+
+  std::string text_of(const std::string& key) const {
+    const auto found = texts.find(key);
+    return found == texts.end() ? "" : found->second;
+  }
 };
 int run_map(const MapOptions& options, Console& console);
 

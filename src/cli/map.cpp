@@ -7,6 +7,7 @@
 
 #include "cli/command_builder.h"
 #include "cli/commands.h"
+#include "cli/map_options.h"
 #include "cli/scene_options.h"
 #include "common/output_files.h"
 #include "common/quiet_errors.h"
@@ -24,99 +25,6 @@
 #include "splotchcl/scene_file.h"
 
 namespace splotchcl::cli {
-namespace {
-
-void add_quantity_options(CLI::App& sub, MapOptions& options) {
-  sub.add_option("--quantity", options.quantity,
-                 wrapped("surface_density (the default), counts, line_of_sight_velocity, or a "
-                         "field (splotchcl fields lists them)"))
-      ->type_name("NAME");
-  sub.add_option("--statistic", options.statistic,
-                 wrapped("What to make of a field along each line of sight: mean (the default), "
-                         "dispersion or integral"))
-      ->type_name("NAME");
-  sub.add_option("--weight", options.weight,
-                 wrapped("Weight of means: mass (the default), volume, constant, or a field"))
-      ->type_name("NAME");
-  sub.add_flag(
-      "--slice", options.slice,
-      wrapped("Values in the plane through the centre instead of along the line of sight"));
-  sub.add_option("--unit", options.unit, wrapped("Unit of the map, such as Msun/pc^2, g/cm^2 or K"))
-      ->type_name("UNIT");
-  sub.add_flag("--noise", options.noise,
-               wrapped("Add a second plane: the effective number of particles in each pixel"));
-}
-
-void add_velocity_options(CLI::App& sub, MapOptions& options) {
-  sub.add_option("--channels", options.channels,
-                 wrapped("A cube: the sum in so many channels of velocity along the line of sight"))
-      ->type_name("N");
-  sub.add_option("--velocity-range", options.velocity_range,
-                 wrapped("Of the channels, in the snapshot's unit; default: all velocities"))
-      ->type_name("V,V");
-  sub.add_option("--line-mass", options.line_mass,
-                 wrapped("Lines of a cube have the thermal width of particles of so many proton "
-                         "masses"))
-      ->type_name("M");
-}
-
-void add_sphere_options(CLI::App& sub, MapOptions& options) {
-  sub.add_option("--healpix", options.healpix,
-                 wrapped("A Healpix map of the sphere around --center, with this NSIDE"))
-      ->type_name("NSIDE");
-  sub.add_option("--order", options.order, wrapped("Of its pixels: ring (the default) or nested"))
-      ->type_name("NAME");
-  sub.add_option("--shell", options.shell,
-                 wrapped("Between these distances from the centre: 10,20Mpc. Of a profile the "
-                         "innermost and outermost radius"))
-      ->type_name("RMIN,RMAX");
-  sub.add_flag("--tile", options.tile,
-               wrapped("Fill the shell with periodic images of the box; default: each particle "
-                       "once, where it is nearest"));
-}
-
-void add_cell_options(CLI::App& sub, MapOptions& options) {
-  sub.add_option("--voxels", options.voxels,
-                 wrapped("A cube of voxels, --width along x: .fits, .hdf5 or .npy"))
-      ->type_name("N|NX,NY,NZ");
-  sub.add_option("--profile", options.profile,
-                 wrapped("A radial profile around --center in so many shells; also as .csv and "
-                         ".ecsv"))
-      ->type_name("N");
-  sub.add_option("--histogram", options.histogram,
-                 wrapped("A histogram of two fields, such as density,temperature"))
-      ->type_name("FIELD,FIELD");
-  sub.add_option("--bins", options.bins, wrapped("Of the histogram; default: 256"))
-      ->type_name("N|X,Y");
-  sub.add_option("--x-range", options.x_range, wrapped("Of its first field; default: all values"))
-      ->type_name("V,V");
-  sub.add_option("--y-range", options.y_range, wrapped("Of its second field, likewise"))
-      ->type_name("V,V");
-}
-
-void add_view_options(CLI::App& sub, MapOptions& options) {
-  sub.add_option(
-         "--view", options.view,
-         wrapped(
-             "xy (the default), xz or yz: the axes to the right and up; camera: the scene's view; "
-             "sky: all around, from --center, --width in degrees"))
-      ->type_name("NAME");
-  sub.add_option("--distance", options.distance,
-                 wrapped("Distance of the observer, such as '16.5 Mpc', or redshift: adds "
-                         "coordinates on the sky"))
-      ->type_name("LENGTH");
-  sub.add_option("--sky", options.sky,
-                 wrapped("Right ascension and declination of the centre in degrees"))
-      ->type_name("RA,DEC");
-  sub.add_option("--contours", options.contours,
-                 wrapped("Contour lines on figures: how many, or at which values"))
-      ->type_name("N|V,V,...");
-  sub.add_option("--depth", options.depth,
-                 wrapped("Depth along the line of sight, likewise; particles outside are left out"))
-      ->type_name("LENGTH");
-}
-
-}  // namespace
 
 void add_map(CLI::App& app, Run& run, Console& console) {
   const auto options = std::make_shared<MapOptions>();
@@ -131,11 +39,7 @@ void add_map(CLI::App& app, Run& run, Console& console) {
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);
-  add_quantity_options(*sub, *options);
-  add_velocity_options(*sub, *options);
-  add_sphere_options(*sub, *options);
-  add_cell_options(*sub, *options);
-  add_view_options(*sub, *options);
+  add_map_options(*sub, *options);
   sub->add_option("--tolerance", options->tolerance,
                   wrapped("Largest error of each sum, relative to it, or to map.floor if it is "
                           "below that; 0: 1e-6. Default: the scene's, or 0.001"))
@@ -173,28 +77,9 @@ std::string list_of_types(const std::string& text) {
   return "[" + list + "]";
 }
 
-// "5" is a number of contours, "1e4,1e5" are their values.
-std::string contour_setting(const std::string& text) {
-  const bool is_count = text.find_first_not_of("0123456789") == std::string::npos;
-  return is_count ? "map.contour_count=" + text : "map.contours=[" + text + "]";
-}
-
 // halo=5, which stands for a place as words do.
 bool is_named(const std::string& center) {
   return center.find(',') == std::string::npos;
-}
-
-// A length or a place with a unit, which the snapshot has to be known for.
-bool has_unit(const std::string& lengths) {
-  return !unit_of_lengths(lengths).empty();
-}
-
-// Lengths with a unit are texts.
-void add_lengths(const char* key, const std::string& lengths, const char* before, const char* after,
-                 std::vector<std::string>& settings) {
-  if (lengths.empty()) return;
-  settings.push_back(has_unit(lengths) ? fmt::format("map.{}='{}'", key, lengths)
-                                       : fmt::format("map.{}={}{}{}", key, before, lengths, after));
 }
 
 void add_place(const MapOptions& options, std::vector<std::string>& settings) {
@@ -202,63 +87,9 @@ void add_place(const MapOptions& options, std::vector<std::string>& settings) {
     if (!options.center.empty())
       settings.push_back(fmt::format("map.center_at='{}'", options.center));
   } else if (!is_named(options.center)) {
-    add_lengths("center", options.center, "[", "]", settings);
+    settings.push_back(setting_of_lengths("center", options.center, true));
   }
-  add_lengths("width", options.width, "", "", settings);
-  add_lengths("depth", options.depth, "", "", settings);
-  add_lengths("shell", options.shell, "[", "]", settings);
-}
-
-// "density,temperature" as TOML; of formulas with commas the scene's key takes a list.
-std::string list_of_words(const std::string& text) {
-  std::istringstream words(text);
-  std::string list;
-  for (std::string word; std::getline(words, word, ',');)
-    list += (list.empty() ? "'" : ", '") + word + "'";
-  return "[" + list + "]";
-}
-
-std::string one_or_list(const std::string& numbers) {
-  return numbers.find(',') == std::string::npos ? numbers : "[" + numbers + "]";
-}
-
-// In a scene 0 says that there is no such shape; who types it asks for one.
-void refuse_none(const char* option, const std::string& count) {
-  if (count.empty() || count.find_first_not_of("0, ") != std::string::npos) return;
-  throw UsageError(fmt::format("{}: found {}, expected at least 1", option, count));
-}
-
-std::string text_of(const std::optional<int>& count) {
-  return count ? std::to_string(*count) : "";
-}
-
-void check_counts(const MapOptions& options) {
-  refuse_none("--channels", text_of(options.channels));
-  refuse_none("--healpix", text_of(options.healpix));
-  refuse_none("--profile", text_of(options.profile));
-  refuse_none("--voxels", options.voxels);
-}
-
-void add_shape(const MapOptions& options, std::vector<std::string>& settings) {
-  check_counts(options);
-  const auto add = [&settings](const char* key, const std::string& value) {
-    if (!value.empty()) settings.push_back(fmt::format("map.{}={}", key, value));
-  };
-  const auto add_range = [&add](const char* key, const std::string& range) {
-    if (!range.empty()) add(key, "[" + range + "]");
-  };
-  if (options.channels) add("channels", std::to_string(*options.channels));
-  if (options.line_mass) add("line_mass", fmt::format("{}", *options.line_mass));
-  add_range("velocity_range", options.velocity_range);
-  if (options.healpix) add("healpix", std::to_string(*options.healpix));
-  if (!options.order.empty()) add("healpix_order", "'" + options.order + "'");
-  if (options.tile) add("tile", "true");
-  add("voxels", one_or_list(options.voxels));
-  if (options.profile) add("profile", std::to_string(*options.profile));
-  if (!options.histogram.empty()) add("histogram", list_of_words(options.histogram));
-  add("bins", one_or_list(options.bins));
-  add_range("x_range", options.x_range);
-  add_range("y_range", options.y_range);
+  if (!options.width.empty()) settings.push_back(setting_of_lengths("width", options.width, false));
 }
 
 // The options as settings of the scene, after those that the user gives.
@@ -267,19 +98,11 @@ std::vector<std::string> settings_of_map(const MapOptions& options) {
   const auto add = [&settings](const char* key, const std::string& value) {
     if (!value.empty()) settings.push_back(fmt::format("map.{}='{}'", key, value));
   };
-  add("quantity", options.quantity.empty() ? options.field : options.quantity);
+  add("quantity", options.field);
   add("palette", options.palette);
-  add("statistic", options.statistic);
-  add("weight", options.weight);
-  add("view", options.view);
-  add("unit", options.unit);
   add_place(options, settings);
-  add_shape(options, settings);
-  add("distance", options.distance);
-  if (!options.sky.empty()) settings.push_back("map.sky=[" + options.sky + "]");
-  if (!options.contours.empty()) settings.push_back(contour_setting(options.contours));
-  if (options.slice) settings.emplace_back("map.slice=true");
-  if (options.noise) settings.emplace_back("map.noise=true");
+  const std::vector<std::string> more = settings_of_map_options(options);
+  settings.insert(settings.end(), more.begin(), more.end());
   if (!options.types.empty()) {
     settings.push_back(
         fmt::format("component.{}.types={}", map_component(options), list_of_types(options.types)));
@@ -374,7 +197,7 @@ std::string size_of(const Map& map) {
 }  // namespace
 
 int run_map(const MapOptions& options, Console& console) {
-  if (!options.quantity.empty() && !options.field.empty()) {
+  if (!options.text_of("quantity").empty() && !options.field.empty()) {
     throw UsageError("map: found --quantity and --field, expected one of them: they say the same");
   }
   for (const std::filesystem::path& output : options.outputs)

@@ -2,68 +2,56 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <utility>
+#include <vector>
+
+#include "cli/map_options.h"
 
 namespace splotchcl::cli {
 namespace {
 
 struct KeyOfOption {
-  const char* key;
-  const char* option;
+  std::string key, option;
 };
 
-constexpr std::array<KeyOfOption, 49> keys_of_options = {{
-    {"types", "--types"},
-    {"where", "--where"},
-    {"field", "--field"},
-    {"palette", "--palette"},
-    {"center", "--center"},
-    {"width", "--width"},
-    {"option --where", "--where"},
-    {"option --center", "--center"},
-    {"option --width", "--width"},
-    {"option --depth", "--depth"},
-    {"image.size", "--size"},
-    {"look", "--look"},
-    {"tolerance", "--tolerance"},
-    {"read.every", "--every"},
-    {"read.max_particles", "--max-particles"},
-    {"read.columns", "--columns"},
-    {"read.skip_lines", "--skip-lines"},
-    {"select.where", "--where"},
-    {"color.field", "--field"},
-    {"map.quantity", "--field"},
-    {"map.quantity", "--quantity"},
-    {"map.statistic", "--statistic"},
-    {"map.weight", "--weight"},
-    {"map.view", "--view"},
-    {"map.unit", "--unit"},
-    {"map.palette", "--palette"},
-    {"map.center", "--center"},
-    {"map.center_at", "--center"},
-    {"map.width", "--width"},
-    {"map.depth", "--depth"},
-    {"map.distance", "--distance"},
-    {"map.sky", "--sky"},
-    {"map.contours", "--contours"},
-    {"map.contour_count", "--contours"},
-    {"map.channels", "--channels"},
-    {"map.velocity_range", "--velocity-range"},
-    {"map.line_mass", "--line-mass"},
-    {"map.slice", "--slice"},
-    {"map.noise", "--noise"},
-    {"map.healpix", "--healpix"},
-    {"map.healpix_order", "--order"},
-    {"map.shell", "--shell"},
-    {"map.tile", "--tile"},
-    {"map.voxels", "--voxels"},
-    {"map.profile", "--profile"},
-    {"map.histogram", "--histogram"},
-    {"map.bins", "--bins"},
-    {"map.x_range", "--x-range"},
-    {"map.y_range", "--y-range"},
-}};
+// All but those of map_options().
+const std::vector<KeyOfOption>& common_keys() {
+  static const std::vector<KeyOfOption> keys = {
+      {"types", "--types"},
+      {"where", "--where"},
+      {"field", "--field"},
+      {"palette", "--palette"},
+      {"center", "--center"},
+      {"width", "--width"},
+      {"option --where", "--where"},
+      {"option --center", "--center"},
+      {"option --width", "--width"},
+      {"option --depth", "--depth"},
+      {"image.size", "--size"},
+      {"look", "--look"},
+      {"tolerance", "--tolerance"},
+      {"read.every", "--every"},
+      {"read.max_particles", "--max-particles"},
+      {"read.columns", "--columns"},
+      {"read.skip_lines", "--skip-lines"},
+      {"select.where", "--where"},
+      {"color.field", "--field"},
+      {"map.quantity", "--field"},
+      {"map.palette", "--palette"},
+      {"map.center", "--center"},
+      {"map.center_at", "--center"},
+      {"map.width", "--width"},
+      {"map.contour_count", "--contours"},
+  };
+  return keys;
+}
+
+std::vector<KeyOfOption> keys_of_options() {
+  std::vector<KeyOfOption> keys = common_keys();
+  for (const MapOption& option : map_options())
+    keys.push_back({"map." + option.key, "--" + option.name});
+  return keys;
+}
 
 bool begins_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
@@ -108,10 +96,10 @@ bool TypedOptions::sets(const std::string& key) const {
 std::string TypedOptions::option_of(const std::string& key) const {
   if (sets(key)) return {};
   const std::string name = without_component(key);
-  const auto found =
-      std::find_if(keys_of_options.begin(), keys_of_options.end(),
-                   [&](const KeyOfOption& pair) { return pair.key == name && has(pair.option); });
-  return found == keys_of_options.end() ? "" : found->option;
+  for (const auto& [of, option] : keys_of_options()) {
+    if (of == name && has(option)) return option;
+  }
+  return {};
 }
 
 // Of 'setting "map.width=-3": key map.width: found' what follows the setting, if an option made it.
@@ -141,7 +129,7 @@ std::string TypedOptions::with_option_first(const std::string& message) const {
 // Of 'component gas: color.field is "u", which' and 'component gas: select.where: found', where it
 // is about what was typed.
 std::string TypedOptions::with_option_within(const std::string& message) const {
-  for (const auto& [key, option] : keys_of_options) {
+  for (const auto& [key, option] : keys_of_options()) {
     for (const std::string& end : {std::string(" is \""), std::string(": ")}) {
       const std::string words = std::string(" ") + key + end;
       const std::size_t place = message.find(words);

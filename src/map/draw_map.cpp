@@ -122,15 +122,26 @@ const char* name_of(MapView view) {
 }
 
 // Files hold single precision: what does not fit is refused, not cut.
-std::vector<float> in_unit(const std::vector<double>& values, const MapUnits& units) {
+// Of what lies above the floor too much may lose digits, which a note tells.
+std::vector<float> in_unit(const std::vector<double>& values, const MapUnits& units, double floor,
+                           std::vector<std::string>& notes) {
+  using Limits = std::numeric_limits<float>;
   std::vector<float> converted(values.size());
   double largest = 0;
+  std::size_t small = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double value = values[i] * units.factor;
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+    const bool counts = value != 0 && std::abs(value) >= floor;
+    if (counts && std::abs(value) < double{Limits::min()}) ++small;
     converted[i] = static_cast<float>(value);
   }
-  using Limits = std::numeric_limits<float>;
+  if (small > 0) {
+    notes.push_back(fmt::format(
+        "key map.unit: {} values are below {:.3g} {}, where single precision has fewer digits; "
+        "choose another unit",
+        small, Limits::min(), units.name));
+  }
   if (largest == 0 || (largest <= double{Limits::max()} && largest >= double{Limits::min()})) {
     return converted;
   }
@@ -283,9 +294,9 @@ void take_cells(CellMap cells, const MapUnits& units, Map& map, std::vector<std:
   map.healpix = cells.healpix;
   map.shell = cells.shell;
   if (cells.sky) map.sky = cells.sky;
-  map.values = in_unit(cells.values, units);
   map.floor = cells.floor;
   map.value_floor = cells.value_floor * units.factor;
+  map.values = in_unit(cells.values, units, map.value_floor, notes);
   map.images = cells.images;
   map.bad_particles = cells.bad;
   if (map.shape == MapShape::healpix) map.view = "sky";
@@ -293,14 +304,26 @@ void take_cells(CellMap cells, const MapUnits& units, Map& map, std::vector<std:
   notes.insert(notes.end(), cells.notes.begin(), cells.notes.end());
 }
 
+void note_rough_places(const PlacedParticles& placed, std::vector<std::string>& notes) {
+  if (placed.rough == 0) return;
+  notes.push_back(fmt::format(
+      "{} of {} particles lie so far from the origin of coordinates that single precision has "
+      "their "
+      "places only to more than a pixel and their smoothing length; subtract the middle from "
+      "positions first",
+      placed.rough, placed.count()));
+}
+
 void draw_pixels(const MapPlan& plan, const Scene& scene, const ComponentFields& fields,
-                 const DrawFrame& draw, Map& map) {
+                 const DrawFrame& draw, Map& map, std::vector<std::string>& notes) {
   const MapSettings& settings = scene.map;
   const MapGeometry& geometry = plan.geometry;
   const PlacedParticles placed =
       place_particles(plan.matter, geometry, scene.kernel.width, settings.slice);
+  note_rough_places(placed, notes);
   WeightedValues weighted(placed, plan.quantity, settings.floor, geometry, scene.kernel.width,
                           fields.particles_per_drawn());
+  if (settings.noise) weighted.keep_weight_sums();
   const SumPicture picture = {geometry.width, geometry.height, scene.kernel.width, scene.tolerance};
   map.width = geometry.width;
   map.height = geometry.height;
@@ -313,8 +336,8 @@ void draw_pixels(const MapPlan& plan, const Scene& scene, const ComponentFields&
       is_cube ? weighted.draw_channels(channels, picture, draw) : weighted.draw(picture, draw);
   if (is_cube)
     map.velocity = axis_of(channels, told_velocity(settings, plan.snapshot, plan.types.front()));
-  map.values = in_unit(values, plan.units);
   map.value_floor = weighted.value_floor() * plan.units.factor;
+  map.values = in_unit(values, plan.units, map.value_floor, notes);
   if (settings.noise) {
     map.effective_particles =
         draw_effective_particles(placed, weighted, picture, settings.floor, draw);
@@ -368,7 +391,7 @@ Map draw_map(const Scene& written, const Snapshot& snapshot, const DrawFrame& dr
   if (is_made_of_cells(shape)) {
     take_cells(draw_cells(plan, one, shape, fields, progress), plan.units, map, notes);
   } else {
-    draw_pixels(plan, one, fields, draw, map);
+    draw_pixels(plan, one, fields, draw, map, notes);
   }
   note_particles(plan, settings, map, notes);
   return map;

@@ -205,12 +205,20 @@ class Placer {
       placed_.position.push_back(static_cast<float>(value));
     placed_.size.push_back(static_cast<float>(size));
     placed_.source.push_back(i);
+    if (is_rough(i, h)) ++placed_.rough;
     const double width = sigma_ * size;
     placed_.share.push_back(static_cast<float>(share_between(x, 0.5 * geometry_.width, width) *
                                                share_between(y, 0.5 * geometry_.height, width)));
     if (!is_slice_) return;
     const double distance = seen.depth / geometry_.pixel / width;
     placed_.in_plane.push_back(std::exp(-distance * distance) / (std::sqrt(pi) * width));
+  }
+
+  bool is_rough(std::uint32_t i, double h) const {
+    constexpr double rounding = 0x1p-24;
+    const float* const place = matter_.position.data() + 3 * std::size_t{i};
+    const float farthest = std::max({std::abs(place[0]), std::abs(place[1]), std::abs(place[2])});
+    return rounding * static_cast<double>(farthest) > std::max(h, geometry_.pixel);
   }
 
   const MapMatter& matter_;

@@ -15,6 +15,8 @@ struct PlacedParticles {
   std::vector<std::uint32_t> source;  // which of the matter's particles it is
   std::vector<float> share;           // how much of its kernel lies in the picture
   std::uint64_t bad = 0;              // particles without a place or a size
+  // Single precision has their places to less than a pixel and their size.
+  std::uint64_t rough = 0;
 
   std::size_t count() const { return source.size(); }
 };

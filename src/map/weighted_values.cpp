@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "scene/constants.h"
 
@@ -143,7 +144,7 @@ std::vector<double> WeightedValues::draw_dispersion(const SumPicture& picture,
                                                     const DrawFrame& draw) {
   const double mean = mean_of([](double value) { return value; });
   const ValueSums drawn = draw_values([mean](double value) { return value - mean; }, picture, draw);
-  weight_sums_ = drawn.sums[denominator];
+  keep(drawn.sums[denominator]);
   const std::vector<double> first = means(drawn);
   const auto square = [mean](double value) { return (value - mean) * (value - mean); };
   std::vector<double> values = means(draw_values(square, picture, draw));
@@ -182,20 +183,26 @@ std::vector<double> WeightedValues::draw_channels(const VelocityChannels& channe
   return values;
 }
 
+// They are as large as the map.
+void WeightedValues::keep(const std::vector<double>& sums) {
+  if (keeps_weight_sums_) weight_sums_ = sums;
+}
+
 std::vector<double> WeightedValues::draw(const SumPicture& picture, const DrawFrame& draw) {
   if (kind_ == MapQuantity::Kind::dispersion) return draw_dispersion(picture, draw);
   if (!needs_values()) {
-    weight_sums_ = draw_weights(picture, draw)[denominator];
-    std::vector<double> values = weight_sums_;
+    PixelSums sums = draw_weights(picture, draw);
+    std::vector<double> values = std::move(sums[denominator]);
+    keep(values);
     for (double& value : values)
       value *= weight_unit_ * area_factor();
     return values;
   }
   const ValueSums drawn = draw_values([](double value) { return value; }, picture, draw);
-  weight_sums_ = drawn.sums[denominator];
+  keep(drawn.sums[denominator]);
   if (kind_ == MapQuantity::Kind::mean) return means(drawn);
   value_unit_ = drawn.unit;
-  std::vector<double> values(weight_sums_.size());
+  std::vector<double> values(drawn.sums[denominator].size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     values[i] =
         (drawn.sums[above][i] - drawn.sums[below][i]) * value_unit_ * weight_unit_ * area_factor();

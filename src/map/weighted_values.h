@@ -37,7 +37,9 @@ class WeightedValues {
 
   // As they are drawn.
   const std::vector<float>& weights() const { return weight_; }
-  const std::vector<double>& weight_sums() const { return weight_sums_; }  // after draw()
+  // After draw(), where they were to be kept before it.
+  void keep_weight_sums() { keeps_weight_sums_ = true; }
+  const std::vector<double>& weight_sums() const { return weight_sums_; }
   // Whether a sum of weights, as it is drawn, reaches the floor.
   bool is_known(double sum) const { return sum >= floor_ && sum > 0; }
 
@@ -61,6 +63,7 @@ class WeightedValues {
   std::vector<double> draw_dispersion(const SumPicture& picture, const DrawFrame& draw);
   std::vector<double> means(const ValueSums& drawn) const;
   double area_factor() const;
+  void keep(const std::vector<double>& sums);
 
   const PlacedParticles& placed_;
   MapQuantity::Kind kind_;
@@ -72,6 +75,7 @@ class WeightedValues {
   double value_unit_ = 1;  // of an integral's values: their mean size, after draw()
   double floor_ = 1;
   std::uint64_t bad_ = 0;
+  bool keeps_weight_sums_ = false;
   std::vector<double> weight_sums_;
 };
 

@@ -22,6 +22,17 @@ class TypedOptions : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(TypedOptions, AreNamedForEachShapeOfAMap) {
+  for (const std::string wrong :
+       {"--voxels 4,4", "--voxels 0", "--profile 0", "--channels x", "--healpix 12", "--bins 0",
+        "--shell 5 --profile 3", "--x-range 5,1 --histogram x,y", "--slice --voxels 4",
+        "--noise --healpix 4", "--statistic integral --quantity x --voxels 4"}) {
+    const std::string option = wrong.substr(0, wrong.find(' '));
+    EXPECT_THAT(error_of("map s.hdf5 -o m.npy " + wrong), StartsWith("splotchcl: " + option + ": "))
+        << wrong;
+  }
+}
+
 TEST_F(TypedOptions, AreNamedWhereTheirValuesAreWrong) {
   EXPECT_THAT(error_of("map s.hdf5 -o m.npy --width -3"), StartsWith("splotchcl: --width: found"));
   EXPECT_THAT(error_of("render s.hdf5 --width -3"), StartsWith("splotchcl: --width: found"));

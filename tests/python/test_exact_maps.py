@@ -13,6 +13,9 @@ from splotchcl import Particles
 
 SEEDS = range(3000 if "SPLOTCHCL_LONG_TESTS" in os.environ else 300)
 TOLERANCES = (1e-2, 1e-3, 1e-4)
+MSUN_IN_G, KPC_IN_CM = 1.988410e33, 3.0856776e21
+# Of a surface density or a density in Msun and kpc.
+UNITS = {None: 1.0, "g/cm^2": MSUN_IN_G / KPC_IN_CM**2, "Msun/pc^3": 1e-9}
 
 
 @dataclass
@@ -23,7 +26,7 @@ class SetUp:
     weight: str | None = None
     statistic: str | None = None
     floor: float = 1e-3
-    scale: float = 1.0
+    unit: str | None = None
 
     def particles(self) -> Particles:
         box = None if self.view.box is None else tuple(map(float, self.view.box))
@@ -38,13 +41,15 @@ class SetUp:
         settings = {"map.floor": self.floor, "map.periodic": view.box is not None}
         if view.box is not None:
             settings["periodic.box"] = list(map(float, view.box))
+        if self.unit is not None:
+            settings |= {"map.length_unit": "kpc", "map.mass_unit": "Msun"}
         drawn = splotchcl.column(
             self.particles(), self.quantity, self.weight, types="gas", statistic=self.statistic,
-            slice=view.is_slice, view=view.axes, center=list(map(float, view.center)),
+            slice=view.is_slice, unit=self.unit, view=view.axes, center=list(map(float, view.center)),
             width=view.width * view.pixel, depth=view.depth, size=(view.width, view.height),
             tolerance=tolerance, settings=settings, device=renderer,
         )
-        return drawn.values.astype(float)
+        return drawn.values.astype(float) / UNITS[self.unit]
 
 
 def as_stored(values: np.ndarray) -> np.ndarray:
@@ -118,7 +123,11 @@ def set_up(seed: int) -> SetUp:
         quantity = None
     if view.is_slice and statistic == "integral":
         statistic, weight = None, "volume"
-    return SetUp(matter, view, quantity, weight, statistic, float(random.choice([1e-2, 1e-3, 1e-6])))
+    unit = None
+    if quantity is None and seed % 2:
+        unit = "Msun/pc^3" if view.is_slice else "g/cm^2"
+    floor = float(random.choice([1e-2, 1e-3, 1e-6]))
+    return SetUp(matter, view, quantity, weight, statistic, floor, unit)
 
 
 def value_of(one: SetUp) -> np.ndarray:

@@ -314,6 +314,21 @@ def test_a_histogram_has_each_particle_in_one_bin(quantity):
     assert found.axes == ("x", "temperature") and found.axis_units == ("code_length", "code_temperature")
 
 
+def test_a_histogram_has_the_extent_of_its_bins():
+    arrays = make_arrays(100) | {"charge": np.linspace(-1, 1, 100, dtype=np.float32)}
+    found = drawn(arrays, "counts", histogram=("charge", "temperature"), bins=4)
+    temperature = np.log10(arrays["temperature"][[arrays["temperature"].argmin(), arrays["temperature"].argmax()]])
+    assert found.extent == pytest.approx([-1, 1, *temperature], rel=1e-6)
+
+
+@pytest.mark.parametrize("what", [{"healpix": 2}, {"profile": 2}, {"view": "sky"}])
+def test_shapes_without_squares_have_no_extent(what):
+    found = drawn(matter(1), **what)
+    for name in ("extent", "pixel"):
+        with pytest.raises(UsageError, match="has none"):
+            getattr(found, name)
+
+
 def test_particles_outside_of_a_histogram_are_noted():
     settings = {"map.x_range": [5.0, 100.0]}
     found = drawn(make_arrays(100), "counts", histogram=("x", "temperature"), bins=4, settings=settings)

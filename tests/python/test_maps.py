@@ -255,3 +255,20 @@ def test_a_renderer_draws_the_same_maps_as_a_new_device(renderer, particles):
              for device in (None, renderer, renderer)]
     assert np.array_equal(drawn[0].values, drawn[1].values, equal_nan=True)
     assert np.array_equal(drawn[0].values, drawn[2].values, equal_nan=True)
+
+
+@pytest.mark.parametrize(("middle", "is_noted"), [(1e9, True), (1e4, False)])
+def test_places_that_single_precision_does_not_have_are_noted(renderer, middle, is_noted):
+    places = np.random.default_rng(1).uniform(-1, 1, (50, 3)) + middle
+    gas = Particles().gas(position=places, smoothing_length=np.full(50, 0.1), mass=np.ones(50))
+    drawn = splotchcl.column(gas, types="gas", center=[middle] * 3, width=2, size=(8, 8), device=renderer)
+    assert any("50 of 50 particles lie so far" in note for note in drawn.notes) == is_noted
+
+
+def test_values_that_single_precision_has_few_digits_for_are_noted(renderer, particles):
+    settings = {"map.length_unit": "cm", "map.mass_unit": "g", "map.unit": "5e37 g/cm^2"}
+    drawn = splotchcl.column(particles, types="gas", size=(8, 8), device=renderer, settings=settings)
+    assert any("single precision has fewer digits" in note for note in drawn.notes)
+    settings["map.unit"] = "1e20 g/cm^2"
+    drawn = splotchcl.column(particles, types="gas", size=(8, 8), device=renderer, settings=settings)
+    assert drawn.notes == []

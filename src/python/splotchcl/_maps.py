@@ -100,15 +100,28 @@ class Map:
 
     @property
     def pixel(self) -> float:
-        """The side of a pixel, in `length_unit`."""
+        """The side of a pixel or a voxel, in `length_unit`. Other cells have none: UsageError."""
+        self._require_squares("pixel")
         return self._map.pixel
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
-        """Left, right, bottom, top in `length_unit`, for ``imshow(..., origin="lower")``."""
+        """Left, right, bottom, top in `length_unit`, for ``imshow(..., origin="lower")``.
+
+        Of a histogram in the units of its fields, or of their decimal logarithms where bins have equal
+        ratios. Spheres, skies and profiles have none: UsageError.
+        """
+        if self._map.shape == "histogram":
+            ends = [_ends(edges) for edges in self.edges]
+            return *ends[0], *ends[1]
+        self._require_squares("extent")
         half = self._map.pixel * self._map.width / 2, self._map.pixel * self._map.height / 2
         right, up = self._map.center_right, self._map.center_up
         return right - half[0], right + half[0], up - half[1], up + half[1]
+
+    def _require_squares(self, what: str) -> None:
+        if self._map.shape not in ("plane", "velocities", "voxels"):
+            raise UsageError(f"{what}: a map of the shape {self._map.shape} has none, expected a plane, a cube or voxels")
 
     # A cube has no figure.
     def _repr_png_(self) -> bytes | None:
@@ -294,6 +307,12 @@ def column(
     notes = [note for note in what.notes if note != not_drawn]
     notes += [note for note in more if note not in notes]
     return Map(drawn, notes, what.scene, what.source)
+
+
+def _ends(edges: np.ndarray[Any, Any]) -> tuple[float, float]:
+    are_equal = np.allclose(np.diff(edges), edges[1] - edges[0], rtol=1e-6)
+    first, last = (edges if are_equal else np.log10(edges))[[0, -1]]
+    return float(first), float(last)
 
 
 # What maps of arrays are in, unless the scene says so: also those of types whose own arrays carry
