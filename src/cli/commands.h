@@ -53,7 +53,7 @@ int run_render(const RenderOptions& options, Console& console);
 struct PublishOptions : DrawOptions {
   std::filesystem::path output;  // a page, or a folder for it
   std::optional<std::string> title;
-  std::size_t splats = 400000;  // at most
+  std::optional<std::size_t> splats;  // at most; unset: as the output's kind suits
 };
 int run_publish(const PublishOptions& options, Console& console);
 

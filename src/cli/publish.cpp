@@ -24,6 +24,8 @@ namespace splotchcl::cli {
 namespace {
 
 constexpr std::uint64_t most_page_bytes = 20'000'000;
+// Viewers leave out dim splats.
+constexpr std::size_t splats_of_pages = 400'000, splats_for_viewers = 100'000;
 
 // A folder gets a page of the name that servers look for.
 std::filesystem::path page_path(const std::filesystem::path& output) {
@@ -130,7 +132,8 @@ int run_publish(const PublishOptions& options, Console& console) {
 
   console.status(fmt::format("merging {} particles", particle_count(frame)));
   const std::vector<LightSplat> particles = light_splats(frame);
-  const std::vector<LightSplat> splats = merge_splats(particles, options.splats);
+  const std::vector<LightSplat> splats = merge_splats(
+      particles, options.splats.value_or(is_page ? splats_of_pages : splats_for_viewers));
   FrameDrawer drawer(drawer_options(options));
   if (!is_page) {
     publish_splats(path, scene, frame, snapshot, splats, particles.size(), drawer, console);

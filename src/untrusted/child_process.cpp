@@ -7,9 +7,9 @@
 #include <unistd.h>
 
 #include <array>
-#include <optional>
 #include <cerrno>
 #include <new>
+#include <optional>
 #include <system_error>
 
 #include "splotchcl/error.h"
