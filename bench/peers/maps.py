@@ -8,6 +8,8 @@ One program a call, because they want different versions of NumPy:
     python maps.py draw PROGRAM WORK_FOLDER PIXELS     draws, and writes what it took and how exact it is
     python maps.py table WORK_FOLDER                   the table, of medians over all calls
 
+PEERS_ONLY="swiftsimio, nested" draws one of a program's ways.
+
 All programs get arrays in memory and draw the same square with every particle of the box in it; kernels that
 leave the square are cut by its edges in all of them. What their kernels look like is their own
 choice; all end at the same radius, but ours, a Gaussian of the cubic spline's second moment. So each is held to exact

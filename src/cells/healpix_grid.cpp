@@ -113,6 +113,11 @@ double HealpixGrid::radius(const SkyPatch& patch) const {
   return known < radius_.size() ? radius_[known] : std::ldexp(radius_.back(), most_known - level);
 }
 
+double HealpixGrid::longest_side(const SkyPatch& patch) const {
+  constexpr double stretch = 1.2;  // over the side of a square as large
+  return stretch * std::sqrt(patch.width * patch.height * solid_angle(0));
+}
+
 bool HealpixGrid::is_bent(const SkyPatch& patch) const {
   if (patch.face >= 4 && patch.face < 8) return false;
   const double low = patch.x + patch.y, high = low + patch.width + patch.height;

@@ -26,6 +26,7 @@ class HealpixGrid : public SkyGrid {
   Vec3 direction(int face, double x, double y) const override;
   double density(int face, double x, double y) const override;
   double radius(const SkyPatch& patch) const override;
+  double longest_side(const SkyPatch& patch) const override;
   bool is_bent(const SkyPatch& patch) const override;
 
  private:

@@ -94,6 +94,11 @@ double PictureOfTheSky::radius(const SkyPatch& patch) const {
   return std::min(pi, 0.5 * pixel_ * std::hypot(patch.width, patch.height) * 1.0000001);
 }
 
+// Near a pole the other one is far shorter.
+double PictureOfTheSky::longest_side(const SkyPatch& patch) const {
+  return pixel_ * std::max(patch.width, patch.height);
+}
+
 bool PictureOfTheSky::is_bent(const SkyPatch& /*patch*/) const {
   return false;
 }

@@ -13,9 +13,6 @@ namespace {
 
 using namespace boost::qvm;
 
-// Of cells that are no squares in the sky, the longer side over their mean side.
-constexpr double stretch = 1.2;
-
 struct SeenPatch {
   SkyPatch patch;
   Vec3 direction;  // to its middle
@@ -73,10 +70,7 @@ class SkySpread {
   // from how steep the particle is there; far out, where little is left, they do not count.
   const SkyRule* rule_for(const SkyPatch& patch, const Vec3& direction) const {
     const double out = std::sqrt(particle_.square(direction));
-    const double area =
-        patch.width * patch.height *
-        grid_.density(patch.face, patch.x + 0.5 * patch.width, patch.y + 0.5 * patch.height);
-    const double side = stretch * std::sqrt(area) / particle_.width();
+    const double side = grid_.longest_side(patch) / particle_.width();
     const double nearest = std::max(0.0, out - grid_.radius(patch) / particle_.width());
     const double left = std::exp(-std::min(nearest * nearest, 700.0));
     const double allowed = accuracy_.tolerance * std::max(1.0, accuracy_.floor / left);

@@ -38,6 +38,8 @@ class SkyGrid {
   virtual double density(int face, double x, double y) const = 0;
   // The angle from the direction of a patch's middle within which all of it lies.
   virtual double radius(const SkyPatch& patch) const = 0;
+  // An angle that no side of a patch is longer than, where it is small.
+  virtual double longest_side(const SkyPatch& patch) const = 0;
   // Whether directions are not smooth: they have a bend along the diagonal from (x + width, y) to
   // (x, y + height), or run together in a corner.
   virtual bool is_bent(const SkyPatch& patch) const = 0;

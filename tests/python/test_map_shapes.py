@@ -191,10 +191,10 @@ def test_the_origin_may_lie_within_a_kernel():
 
 @pytest.mark.parametrize(("field", "statistic"), [(None, None), ("charge", "mean")])
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
-def test_wide_particles_are_summed_up_at_points_within_the_tolerance(tolerance, field, statistic):
-    arrays = matter(7, count=1000, least=0.5, most=5.0)
-    settings = {"map.periodic": False}
-    exactly, quickly = (drawn(arrays, field, statistic=statistic, healpix=8, tolerance=t, settings=settings).values
+@pytest.mark.parametrize("shape", [{"healpix": 8}, {"view": "sky", "size": (36, 18)}])
+def test_wide_particles_are_summed_up_at_points_within_the_tolerance(shape, tolerance, field, statistic):
+    arrays = matter(7, count=500, least=0.5, most=5.0)
+    exactly, quickly = (drawn(arrays, field, statistic=statistic, tolerance=t, **shape).values
                         for t in (0, tolerance))
     size = np.ones(1) if field else exactly
     assert (quickly != exactly).any()

@@ -120,8 +120,9 @@ def test_the_command_line_makes_a_cube(program, universe, tmp_path):
 
 @pytest.mark.parametrize("wrong", [
     {"field": "temperature"}, {"slice": True}, {"noise": True}, {"velocity_range": (3, 1)},
-    {"channels": 0, "velocity_range": (0, 1)}, {"channels": 0, "line_mass": 1}, {"line_mass": 1, "settings": {}},
+    {"channels": 0}, {"channels": None, "velocity_range": (0, 1)}, {"channels": None, "line_mass": 1},
+    {"line_mass": 1, "settings": {}},
 ])  # fmt: skip
 def test_wrong_cubes_are_refused(wrong):
-    with pytest.raises(UsageError, match="map"):
+    with pytest.raises(UsageError, match="map|channels"):
         cube_of(moving(), **wrong)
