@@ -68,7 +68,8 @@ bool has_open_tone(const FinishSettings& finish);
 //   - exposure is the least, in twentieths of a stop, that lifts a quarter of all pixels, or as
 //     much as matter fills, to 4 % of white after contrast, and not below what makes white 1. Where
 //     white is given, or the curve is a line, it is what takes that light to white.
-// Nothing for a picture without light, or with less than 1e-9 of white. The settings themselves where nothing is open.
+// Nothing for a picture without light, or with less than 1e-9 of white. The settings themselves
+// where nothing is open.
 std::optional<FinishSettings> with_tone_of(const FinishSettings& finish, double gamma,
                                            const LightHistogram& light);
 
