@@ -13,6 +13,7 @@
 #include "common/utf8.h"
 #include "estimate/frame_estimate.h"
 #include "film/drawing/tree_choice.h"
+#include "pictures/units_of_white.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/views.h"
@@ -81,6 +82,15 @@ std::string explain_estimate(const FramePlan& plan, const Frame& frame, const Sc
   }
 }
 
+// How often errors count under what is done to light.
+std::string explain_display(const Scene& scene) {
+  if (!scene.finish.exposure || !scene.finish.white)
+    return "exposure: found by a first drawing; errors count as often as it lifts them\n";
+  const double gain = display_gain(scene.finish, scene.image.gamma).total();
+  if (gain == 1) return {};
+  return fmt::format("exposure: errors of light count {:.3g} times, as it is shown\n", gain);
+}
+
 std::string explain_nodes(const Frame& frame, const DrawOptions& options) {
   if (options.reference || !uses_tree(frame, options.tree)) return {};
   return explain_tree(frame);
@@ -90,7 +100,7 @@ std::string explain_nodes(const Frame& frame, const DrawOptions& options) {
 
 void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& scene,
                        const DrawOptions& options, int pictures) {
-  std::istringstream lines(explain(plan, frame) +
+  std::istringstream lines(explain(plan, frame) + explain_display(scene) +
                            explain_estimate(plan, frame, scene, options, pictures) +
                            explain_nodes(frame, options));
   for (std::string line; std::getline(lines, line);)

@@ -73,9 +73,15 @@ namespace {
 
 constexpr double bright_part = 0.003;  // of what matter fills
 constexpr double bright_light = 0.98;  // of white, or a little more, in what that part exceeds
+constexpr double even_part = 0.1;      // of what matter fills
+constexpr double even_light = 0.5;     // of what is bright, at most, in what that part exceeds
 constexpr double filled_light = 1e-3;  // of white
 constexpr double seen_part = 0.25;     // of all pixels
-constexpr double seen_light = 0.03;    // of white
+constexpr double most_filled = 0.9;    // of those that matter fills: the rest are its edges
+constexpr double seen_light = 0.04;    // of white, as it is shown
+constexpr double ground_light = 0.03;  // that half of all pixels reach, where white may be below 1
+constexpr double least_light = 1e-9;   // that is promised to be right, whatever lifts it
+constexpr double lowest_white = 0.2;   // below it curves are nearly lines
 constexpr double steps_per_stop = 20;
 constexpr double most_stops = 30;  // that exposure lifts more than what makes white 1
 
@@ -96,6 +102,13 @@ double lower_edge(std::size_t bin) {
   return light;
 }
 
+// What is bright, of all that is at least `lowest`: what few pixels exceed, and more where many are
+// as bright, which white would show as a flat disc.
+double bright_light_from(const LightHistogram& light, double lowest) {
+  return std::max(light.exceeded_by(bright_part, lowest),
+                  light.exceeded_by(even_part, lowest) / even_light);
+}
+
 // What exceeds this is at most a part of what matter fills, which depends on it in turn: found from
 // below, so that bright pixels that are few do not hide the others. What is fainter than pictures
 // are promised to be right (the default tolerance), or a thousandth of all that is there, does not
@@ -104,16 +117,21 @@ double light_of_bright(const LightHistogram& light) {
   constexpr double promised = 1e-3;
   double lowest = std::min(promised, filled_light * light.exceeded_by(0, 0));
   for (;;) {
-    const double bright = light.exceeded_by(bright_part, lowest);
+    const double bright = bright_light_from(light, lowest);
     if (!(filled_light * bright > lowest)) return bright;
     lowest = filled_light * bright;
   }
 }
 
-// Light that is to be seen.
-double faint_light(const LightHistogram& light, double bright) {
-  const double filled = light.part_from(filled_light * bright);
-  return std::max(light.reached_by(std::min(seen_part, filled)), filled_light * bright);
+// What a picture's light is judged by.
+struct LightLevels {
+  double faint, middle, bright;
+};
+
+LightLevels levels_of(const LightHistogram& light, double bright) {
+  const double least = filled_light * bright, filled = light.part_from(least);
+  const double faint = light.reached_by(std::min(seen_part, most_filled * filled));
+  return {std::max({faint, least, least_light}), light.reached_by(0.5), bright};
 }
 
 double rounded_up(double stops) {
@@ -124,13 +142,22 @@ double rounded_down(double stops) {
   return std::floor(stops * steps_per_stop + 1e-6) / steps_per_stop;
 }
 
-// The least exposure, from `lowest` on, that shows `faint` light as it should be seen.
-double lifting_exposure(ToneCurve curve, double faint, double bright, double lowest) {
-  for (double stops = lowest; stops < lowest + most_stops; stops += 1 / steps_per_stop) {
+// What contrast makes of gray light.
+double with_contrast(double light, const FinishSettings& finish, double gamma) {
+  const double pivot = std::pow(finish.contrast_pivot, gamma);
+  return pivot * std::pow(light / pivot, finish.contrast);
+}
+
+// The least exposure from one on up to another that shows light so bright.
+std::optional<double> exposure_showing(double wanted, double light, double bright,
+                                       const FinishSettings& finish, double gamma, double from,
+                                       double to) {
+  for (double stops = from; stops < to; stops += 1 / steps_per_stop) {
     const double factor = std::exp2(stops);
-    if (tone(curve, factor * faint, factor * bright) >= seen_light) return stops;
+    const double toned = tone(finish.tone, factor * light, factor * bright);
+    if (with_contrast(toned, finish, gamma) >= wanted) return stops;
   }
-  return lowest;
+  return std::nullopt;
 }
 
 // Three digits, and not less.
@@ -139,14 +166,27 @@ double rounded_white(double white) {
   return std::ceil(white / unit * (1 - 1e-12)) * unit;
 }
 
+// What shows faint light as it should be seen, and the middle of the picture, if it is not black.
+double lifting_exposure(const LightLevels& light, const FinishSettings& finish, double gamma,
+                        double lowest, double usual) {
+  const auto showing = [&](double wanted, double faint, double from, double to) {
+    return exposure_showing(wanted, faint, light.bright, finish, gamma, from, to);
+  };
+  const double least = showing(ground_light, light.middle, lowest, usual).value_or(usual);
+  return showing(seen_light, light.faint, least, least + most_stops).value_or(least);
+}
+
 // Within what a scene file may say, as is white.
-double find_exposure(const FinishSettings& finish, double faint, double bright) {
+double find_exposure(const FinishSettings& finish, double gamma, const LightLevels& light) {
   constexpr double most = 100;
-  if (finish.white) return std::clamp(rounded_down(std::log2(*finish.white / bright)), -most, most);
-  const double lowest = std::clamp(rounded_up(-std::log2(bright)), -most, most - most_stops);
+  if (finish.white)
+    return std::clamp(rounded_down(std::log2(*finish.white / light.bright)), -most, most);
+  const auto making_it = [&](double white) {
+    return std::clamp(rounded_up(std::log2(white / light.bright)), -most, most - most_stops);
+  };
   // A line shows as much at any exposure.
-  if (finish.tone == ToneCurve::linear) return lowest;
-  return lifting_exposure(finish.tone, faint, bright, lowest);
+  if (finish.tone == ToneCurve::linear) return making_it(1);
+  return lifting_exposure(light, finish, gamma, making_it(lowest_white), making_it(1));
 }
 
 // What is even and bright stays below white, also where a curve is flat there.
@@ -212,19 +252,20 @@ void take_tone(const FinishSettings& found, FinishSettings& finish) {
   if (!finish.white) finish.white = found.white;
 }
 
-std::optional<FinishSettings> with_tone_of(const FinishSettings& finish,
+std::optional<FinishSettings> with_tone_of(const FinishSettings& finish, double gamma,
                                            const LightHistogram& light) {
   if (!has_open_tone(finish)) return finish;
   const double bright = light_of_bright(light);
-  if (!(bright > 0)) return std::nullopt;
+  if (!(bright > least_light)) return std::nullopt;
   FinishSettings found = finish;
-  if (!finish.exposure) found.exposure = find_exposure(finish, faint_light(light, bright), bright);
+  if (!finish.exposure) found.exposure = find_exposure(finish, gamma, levels_of(light, bright));
   if (!finish.white) found.white = find_white(finish.tone, std::exp2(*found.exposure) * bright);
   return found;
 }
 
-FinishSettings with_any_tone(const FinishSettings& finish, const LightHistogram& light) {
-  if (const std::optional<FinishSettings> found = with_tone_of(finish, light)) return *found;
+FinishSettings with_any_tone(const FinishSettings& finish, double gamma,
+                             const LightHistogram& light) {
+  if (const std::optional<FinishSettings> found = with_tone_of(finish, gamma, light)) return *found;
   FinishSettings settings = finish;
   settings.exposure = finish.exposure.value_or(0);
   settings.white = finish.white.value_or(1);

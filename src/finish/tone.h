@@ -62,17 +62,20 @@ void take_tone(const FinishSettings& found, FinishSettings& finish);
 bool has_open_tone(const FinishSettings& finish);
 
 // The settings with exposure and white found from light as it has been drawn:
-//   - what 0.3 % of the pixels exceed that matter fills is 98 % of white, so that what is even
-//     and bright is not white; matter fills the pixels with at least a thousandth of that,
+//   - what 0.3 % of the pixels exceed that matter fills is 98 % of white, or less, where a tenth of
+//     them would exceed half of it, so that what is even and bright is not white; matter fills the
+//     pixels with at least a thousandth of that,
 //   - exposure is the least, in twentieths of a stop, that lifts a quarter of all pixels, or as
-//     much as matter fills, to 3 % of white, and not below what makes white 1. Where white is
-//     given, or the curve is a line, it is what lets 0.3 % of what matter fills exceed white.
-// Nothing for a picture without light. The settings themselves where nothing is open.
-std::optional<FinishSettings> with_tone_of(const FinishSettings& finish,
+//     much as matter fills, to 4 % of white after contrast, and not below what makes white 1. Where
+//     white is given, or the curve is a line, it is what takes that light to white.
+// Nothing for a picture without light, or with less than 1e-9 of white. The settings themselves
+// where nothing is open.
+std::optional<FinishSettings> with_tone_of(const FinishSettings& finish, double gamma,
                                            const LightHistogram& light);
 
 // As above; exposure 0 and white 1 where the picture is black.
-FinishSettings with_any_tone(const FinishSettings& finish, const LightHistogram& light);
+FinishSettings with_any_tone(const FinishSettings& finish, double gamma,
+                             const LightHistogram& light);
 
 // Exposure, then white balance, tone, saturation and contrast, of linear light; alpha stays.
 // Nothing happens to pixels for settings that change nothing. Exposure and white are known (above).

@@ -89,7 +89,7 @@ field_of_view = 40
 # as the picture's white, and the curve lifts what is less.
 [finish]
 tone = "filmic"
-exposure = 1.5
+exposure = 2
 white = 8
 
 [[component]]

@@ -146,8 +146,8 @@ bool dark_matter_carries_picture(const SnapshotInfo& info) {
 void finish_for_press(FinishSettings& finish) {
   finish.bloom = 0.14;
   finish.highlights = 1;
-  finish.saturation = 1.3;
-  finish.contrast = 1.15;
+  finish.saturation = 1.1;
+  finish.contrast = 1.5;
   finish.contrast_pivot = 1;
 }
 

@@ -173,10 +173,11 @@ struct Span {
 };
 
 // What a picture must span along an axis: without a few particles far out, which would make all
-// else small, but with all of what ends sharply.
-Span span_to_show(std::vector<double>& along) {
+// else small, but with all of what ends sharply. What is long and narrow fills the width.
+Span span_to_show(std::vector<double>& along, Target::Shape shape) {
   constexpr double outliers = 0.05, few_outliers = 0.01;
-  constexpr double wide_margin = 1.6, margin = 1.25;
+  constexpr double wide_margin = 1.6;
+  const double margin = shape == Target::Shape::bar ? 1.06 : 1.25;
   const ValueRange most = extent(along, outliers), nearly_all = extent(along, few_outliers);
   const Span wide = {middle(most), 0.5 * wide_margin * (most.maximum - most.minimum)};
   const Span close = {middle(nearly_all), 0.5 * margin * (nearly_all.maximum - nearly_all.minimum)};
@@ -197,7 +198,7 @@ void fit_to_picture(Target& target, const Sample& sample, double aspect) {
       along.push_back(sample[0][i] * axis.a[0] + sample[1][i] * axis.a[1] +
                       sample[2][i] * axis.a[2]);
     }
-    const Span span = span_to_show(along);
+    const Span span = span_to_show(along, target.shape);
     target.center = Vec3(target.center + span.middle * axis);
     half_width = std::max(half_width, share * span.half);
   }
@@ -244,14 +245,14 @@ std::optional<std::size_t> find_long_axis(Sample sample) {
 // Whatever lies along an axis is seen from its side, with that axis from left to right.
 Target bar_target(std::size_t long_axis) {
   using namespace boost::qvm;
-  constexpr double askew = 0.2;
+  constexpr double from_above = 1;  // so that it is no flat stripe
   Vec3 along = {{0, 0, 0}};
   along.a[long_axis] = 1;
   Target bar;
   bar.shape = Target::Shape::bar;
   bar.sky = long_axis == 2 ? Vec3{{0, 1, 0}} : Vec3{{0, 0, 1}};
   const Vec3 from_the_side = cross(along, bar.sky);
-  bar.towards_camera = normalized(Vec3(from_the_side + askew * bar.sky));
+  bar.towards_camera = normalized(Vec3(from_the_side + from_above * bar.sky));
   return bar;
 }
 

@@ -273,9 +273,16 @@ Component joint_component(const Snapshot& snapshot, const std::vector<int>& type
   return component;
 }
 
+// Whether lengths that reach to the 64th neighbour reach across much of the picture.
+bool are_few(const Snapshot& snapshot, int type) {
+  constexpr std::uint64_t few = 4096;
+  const ParticleTypeInfo& info = *snapshot.info().find_type(type);
+  return type == gas && info.count < few && find_field(info, "smoothing_length") == nullptr;
+}
+
 // Initial conditions and even boxes: every line of sight shows the same, unless what is denser than
 // the rest stands out. Where all have one size, no density says what is denser, but smaller clouds
-// show how they lie.
+// show how they lie, as they do where particles are few.
 void show_contrast(const Snapshot& snapshot, Component& component) {
   if (component.color.field != "density") return;
   constexpr std::array<double, 2> upper_half = {50, 99.9};
@@ -285,7 +292,8 @@ void show_contrast(const Snapshot& snapshot, Component& component) {
   component.intensity = estimated_density(Scaling::linear);
   component.intensity.percentiles = upper_half;
   constexpr double small = 0.25;
-  if (has_one_size(snapshot, component.types.front())) component.size_factor = small;
+  const int type = component.types.front();
+  if (has_one_size(snapshot, type) || are_few(snapshot, type)) component.size_factor = small;
 }
 
 // Matter absorbs nothing, so that light adds up: columns of it span far more than a display does,

@@ -76,9 +76,11 @@ class Views {
     std::vector<Image> images;
     if (draws_all_first()) images = draw_all(draw_alike);
     find_tone(images, drawn);
-    const double gain = is_shown_ ? display_gain(drawn.finish, scene_.image.gamma) : 1;
+    const DisplayGain gain =
+        is_shown_ ? display_gain(drawn.finish, scene_.image.gamma) : DisplayGain();
     const DrawFrame draw = with_errors_counted(draw_alike, gain);
-    const bool draws_again = gain > 1 && !images.empty() && keeps_promise && !keeps_promise(gain);
+    const bool draws_again =
+        gain.total() > 1 && !images.empty() && keeps_promise && !keeps_promise(gain.total());
     const std::vector<PictureSize> sizes =
         picture_sizes(scene_, frame_.crop.width, frame_.crop.height);
     for (const PictureSize& size : sizes)
@@ -147,8 +149,8 @@ class Views {
     LightHistogram light;
     for (const Image& image : images)
       light.add(image);
-    drawn.finish = with_any_tone(scene_.finish, light);
-    drawn.is_black = !with_tone_of(scene_.finish, light);
+    drawn.finish = with_any_tone(scene_.finish, scene_.image.gamma, light);
+    drawn.is_black = !with_tone_of(scene_.finish, scene_.image.gamma, light);
   }
 
   Image draw_view(const Frame& frame, const ViewPlace& place, const DrawFrame& draw) const {

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "finish/tone.h"
+#include "pictures/error_growth.h"
 
 namespace splotchcl {
 namespace {
@@ -63,36 +64,28 @@ Frame brighter(Frame frame, double factor) {
   return frame;
 }
 
-// Of a channel whose error has another sign than the luminance's.
-double slope_of_saturation(const FinishSettings& finish) {
-  return std::max(1.0, 2 * finish.saturation - 1);
-}
-
-// At white, where it is steepest.
-double slope_of_contrast(const FinishSettings& finish, double gamma) {
-  const double pivot = std::pow(finish.contrast_pivot, gamma);
-  return std::max(1.0, finish.contrast * std::pow(1 / pivot, finish.contrast - 1));
-}
-
 }  // namespace
 
-double display_gain(const FinishSettings& finish, double gamma) {
-  // What changes a pixel's brightest channel changes the others with it, a little more than a
-  // curve that bends would by itself.
-  const double bent = finish.tone == ToneCurve::linear ? 1 : 1.1;
-  const double slope = bent * steepest_slope(finish.tone, finish.white.value());
-  const double of_light = std::exp2(*finish.exposure) * slope * slope_of_saturation(finish) *
-                          slope_of_contrast(finish, gamma);
-  return std::clamp(of_light, 1.0, largest_gain);
+DisplayGain display_gain(const FinishSettings& finish, double gamma) {
+  const double slope = steepest_slope(finish.tone, finish.white.value());
+  DisplayGain gain;
+  gain.of_light = std::clamp(std::exp2(*finish.exposure) * slope, 1.0, largest_gain);
+  gain.of_errors = error_growth(finish, gamma, gain.of_light);
+  return gain;
 }
 
-DrawFrame with_errors_counted(const DrawFrame& draw, double gain) {
-  if (!(gain > 1)) return draw;
+bool keeps_promise_at(double gain, double estimated_error_of_promise) {
+  constexpr double margin = 4;
+  return margin * gain * estimated_error_of_promise <= 1;
+}
+
+DrawFrame with_errors_counted(const DrawFrame& draw, const DisplayGain& gain) {
+  if (!(gain.total() > 1)) return draw;
   return [draw, gain](const Frame& frame) {
     if (frame.tolerance == 0) return draw(frame);  // it is as exact as it can be
-    const double factor = has_gray_absorption(frame) ? 1 : power_for(frame, gain);
+    const double factor = has_gray_absorption(frame) ? 1 : power_for(frame, gain.of_light);
     Frame counted = brighter(frame, factor);
-    counted.tolerance *= factor / gain;
+    counted.tolerance *= factor / gain.total();
     Image image = draw(counted);
     multiply_light(image, 1 / factor);
     return image;

@@ -10,14 +10,23 @@
 // brighter, by a power of two so that no digit changes, and its light is taken back afterwards.
 namespace splotchcl {
 
-// By how much errors of light are larger where they are shown, at most: 2^exposure times the
-// steepest slopes of tone, saturation and contrast; at least 1, at most 2^30. Of a contrast below
-// 1, which is infinitely steep in the dark, and the balance of white nothing is counted. Exposure
-// and white are known.
-double display_gain(const FinishSettings& finish, double gamma);
+// By how much errors of light are larger where they are shown: those of dark light by both factors,
+// those of bright light, which are parts of it, by the second.
+struct DisplayGain {
+  double of_light = 1;   // 2^exposure times the steepest slope of tone; at least 1, at most 2^30
+  double of_errors = 1;  // error_growth()
+  double total() const { return of_light * of_errors; }
+};
 
-// Draws frames so that errors count `gain` times, or more.
-DrawFrame with_errors_counted(const DrawFrame& draw, double gain);
+// Exposure and white are known.
+DisplayGain display_gain(const FinishSettings& finish, double gamma);
+
+// Draws frames so that errors count as often.
+DrawFrame with_errors_counted(const DrawFrame& draw, const DisplayGain& gain);
+
+// Whether a drawing whose errors are estimated to be such a part of its promise keeps it where they
+// count `gain` times. Estimates far below a promise are coarse: they may be off a few times.
+bool keeps_promise_at(double gain, double estimated_error_of_promise);
 
 // Asked after frames were drawn: whether they keep their promise where errors count so many times.
 // Where they do not, or it is not known, they are drawn again.

@@ -224,6 +224,17 @@ Keys camera_keys() {
           [](const Camera& camera) { return camera.fade.far_length; },
           [](Camera& camera, double value) { camera.fade.far_length = value; },
           {"Before `far` it falls over this length.", "length"})),
+      excluding(not_written(key<Camera, std::array<double, 2>>(
+                    "camera.fog", from_to(),
+                    [](const Camera&) { return std::optional<std::array<double, 2>>(); },
+                    [](Camera& camera, const std::array<double, 2>& distances) {
+                      camera.far_limit = distances[1];
+                      camera.fade.far_length = distances[1] - distances[0];
+                    },
+                    {"Light fades between these distances into `image.background`: `far` and "
+                     "`far_fade` by name.",
+                     "length", "no fog"})),
+                {"camera.far", "camera.far_fade"}),
       written_if_set(key(
           "camera.aperture", number(at_least(0)), &Camera::aperture,
           {"Diameter of a lens, which blurs what is out of focus. Perspective only.", "length"})),

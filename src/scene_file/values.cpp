@@ -281,22 +281,38 @@ ValueType<std::vector<int>> particle_types() {
           read_particle_types, write_particle_types};
 }
 
-ValueType<std::array<double, 2>> percentiles() {
-  using Pair = std::array<double, 2>;
-  Range range;
-  range.at_least = 0;
-  range.at_most = 100;
-  const auto read = [range](const toml::node& node) -> std::optional<Pair> {
+namespace {
+
+using TwoNumbers = std::array<double, 2>;
+
+// Two of a range that rise.
+ValueType<TwoNumbers> rising_pair(const Range& range, const std::string& expected) {
+  const auto read = [range](const toml::node& node) -> std::optional<TwoNumbers> {
     const toml::array* const array = node.as_array();
     if (array == nullptr || array->size() != 2) return std::nullopt;
     const auto low = number(range).read((*array)[0]);
     const auto high = number(range).read((*array)[1]);
     if (!low || !high || !(*low < *high)) return std::nullopt;
-    return Pair{*low, *high};
+    return TwoNumbers{*low, *high};
   };
-  return {"[low, high], numbers from 0 to 100 with low < high", read, [](const Pair& value) {
+  return {expected, read, [](const TwoNumbers& value) {
             return "[" + write_number(value[0]) + ", " + write_number(value[1]) + "]";
           }};
+}
+
+}  // namespace
+
+ValueType<TwoNumbers> percentiles() {
+  Range range;
+  range.at_least = 0;
+  range.at_most = 100;
+  return rising_pair(range, "[low, high], numbers from 0 to 100 with low < high");
+}
+
+ValueType<TwoNumbers> from_to() {
+  Range range;
+  range.at_least = 0;
+  return rising_pair(range, "[from, to], numbers >= 0 with from < to");
 }
 
 ValueType<Absorption> absorption() {

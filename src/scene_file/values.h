@@ -47,6 +47,7 @@ ValueType<std::pair<int, int>> size_in_pixels(int at_most);
 ValueType<std::vector<int>> particle_types();
 // [low, high] in per cent.
 ValueType<std::array<double, 2>> percentiles();
+ValueType<std::array<double, 2>> from_to();  // of distances
 ValueType<Absorption> absorption();
 
 // One of a few words.

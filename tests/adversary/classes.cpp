@@ -17,7 +17,8 @@ std::vector<TrialClass> joined(std::vector<std::vector<TrialClass>> kinds) {
 
 const std::vector<TrialClass>& all_classes() {
   static const std::vector<TrialClass> classes =
-      joined({cloud_classes(), light_classes(), view_classes(), course_classes(), map_classes()});
+      joined({cloud_classes(), light_classes(), view_classes(), course_classes(), map_classes(),
+              shown_classes()});
   return classes;
 }
 

@@ -23,6 +23,7 @@ std::vector<TrialClass> light_classes();   // what they shine and absorb
 std::vector<TrialClass> view_classes();    // how they are seen
 std::vector<TrialClass> course_classes();  // between two snapshots
 std::vector<TrialClass> map_classes();     // as values of a map
+std::vector<TrialClass> shown_classes();   // as a display shows them
 const std::vector<TrialClass>& all_classes();
 
 // A start with the light, the tolerance and the shape of compositing that this seed chooses: all

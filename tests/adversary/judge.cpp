@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adversary/map_judge.h"
+#include "adversary/shown_judge.h"
 #include "adversary/trial_frame.h"
 #include "splotchcl/error.h"
 #include "splotchcl/plan.h"
@@ -79,6 +80,7 @@ void compare(const Image& image, const ReferenceImage& exact, const std::vector<
 
 Measurement Judge::measure(const Trial& trial) {
   if (trial.map != MapKind::none) return measure_map_or_refusal(trial);
+  if (trial.shown.is_on > 0) return measure_shown(trial, renderer(trial.shape, false));
   const Frame frame = make_frame(trial);
   const Frame merged = make_merged_frame(trial);
   Renderer& renderer = this->renderer(trial.shape, trial.certify > 0);

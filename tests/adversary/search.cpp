@@ -131,6 +131,7 @@ Trial changed(const Trial& trial, double step, Random& random) {
   // Now and then far away, whatever the step.
   const double size = random.uniform() < 0.1 ? std::max(step, 0.2) : step;
   change_some(child, trial_genes(), size, random);
+  if (child.shown.is_on > 0) change_some(child.shown, shown_genes(), size, random);
   for (CloudGroup& group : child.groups)
     change_some(group, group_genes(), size, random);
   return child;

@@ -22,6 +22,7 @@ class Simplifier {
   Finding run() {
     drop_groups();
     simplify_numbers(trial_genes(), [](Trial& trial) -> Trial& { return trial; });
+    simplify_numbers(shown_genes(), [](Trial& trial) -> Shown& { return trial.shown; });
     for (std::size_t i = 0; i < best_.trial.groups.size(); ++i)
       simplify_numbers(group_genes(), [i](Trial& t) -> CloudGroup& { return t.groups[i]; });
     drop_groups();

@@ -39,6 +39,8 @@ constexpr Names<MapKind, 5> maps = {{{MapKind::none, "none"},
                                      {MapKind::dispersion, "dispersion"},
                                      {MapKind::integral, "integral"}}};
 constexpr Names<Sampling, 2> samplings = {{{Sampling::mean, "mean"}, {Sampling::center, "center"}}};
+constexpr Names<ToneCurve, 3> tones = {
+    {{ToneCurve::linear, "linear"}, {ToneCurve::asinh, "asinh"}, {ToneCurve::filmic, "filmic"}}};
 constexpr Names<CompositeShape, 2> shapes = {
     {{CompositeShape::rows, "rows"}, {CompositeShape::groups, "groups"}}};
 
@@ -87,6 +89,7 @@ bool take_choice_of_trial(Trial& trial, const std::string& key, const std::strin
   if (key == "projection") return take_choice(projections, word, trial.projection);
   if (key == "map") return take_choice(maps, word, trial.map);
   if (key == "sampling") return take_choice(samplings, word, trial.sampling);
+  if (key == "tone") return take_choice(tones, word, trial.tone);
   if (key == "shape") return take_choice(shapes, word, trial.shape);
   return false;
 }
@@ -96,7 +99,8 @@ bool take_pair(Trial& trial, const std::string& key, const std::string& word) {
     trial.groups.emplace_back();
     return take_choice(arrangements, word, trial.groups.back().arrangement);
   }
-  if (take_choice_of_trial(trial, key, word) || take_number(trial, trial_genes(), key, word)) {
+  if (take_choice_of_trial(trial, key, word) || take_number(trial, trial_genes(), key, word) ||
+      take_number(trial.shown, shown_genes(), key, word)) {
     return true;
   }
   return !trial.groups.empty() && take_number(trial.groups.back(), group_genes(), key, word);
@@ -168,6 +172,23 @@ const std::vector<Gene<CloudGroup>>& group_genes() {
   return genes;
 }
 
+const std::vector<Gene<Shown>>& shown_genes() {
+  using Scale = Gene<Shown>::Scale;
+  static const std::vector<Gene<Shown>> genes = {
+      {"shown", &Shown::is_on, Scale::fixed, 0, 1},
+      {"automatic", &Shown::automatic, Scale::fixed, 0, 1},
+      {"exposure", &Shown::exposure, Scale::linear, -3, 10},
+      {"white", &Shown::white, Scale::logarithmic, 0.05, 50},
+      {"balance", &Shown::balance, Scale::logarithmic, 1667, 25000},
+      {"bloom", &Shown::bloom, Scale::logarithmic, 0.01, 1},
+      {"highlights", &Shown::highlights, Scale::logarithmic, 0.01, 1},
+      {"saturation", &Shown::saturation, Scale::linear, 0, 2.5},
+      {"contrast", &Shown::contrast, Scale::logarithmic, 1, 2.5},
+      {"pivot", &Shown::pivot, Scale::logarithmic, 0.2, 1},
+  };
+  return genes;
+}
+
 const char* name(Arrangement arrangement) {
   return name_in(arrangements, arrangement);
 }
@@ -191,7 +212,9 @@ std::string text_of(const Trial& trial) {
       << name_in(projections, trial.projection) << "\nmap " << name_in(maps, trial.map)
       << "\nsampling " << name_in(samplings, trial.sampling) << "\nshape " << name(trial.shape)
       << "\n";
+  if (trial.shown.is_on > 0) out << "tone " << name_in(tones, trial.tone) << "\n";
   print_numbers(trial, trial_genes(), "", out);
+  print_numbers(trial.shown, shown_genes(), "", out);
   for (const CloudGroup& group : trial.groups) {
     out << "group " << name(group.arrangement) << "\n";
     print_numbers(group, group_genes(), "  ", out);

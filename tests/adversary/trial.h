@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "splotchcl/camera.h"
+#include "splotchcl/finish.h"
 #include "splotchcl/light_model.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
@@ -40,6 +41,16 @@ enum class Light {
 // As what kind of map a trial is drawn, if as one (docs/maps.md).
 enum class MapKind { none, column, mean, dispersion, integral };
 
+// How light is finished, if errors count as a display shows them (docs/finish.md).
+struct Shown {
+  double is_on = 0;      // 1
+  double automatic = 0;  // 1: exposure and white are found
+  double exposure = 0;   // stops
+  double white = 1;
+  double balance = 0;  // of white, in kelvin; 0: as drawn
+  double bloom = 0, highlights = 0, saturation = 1, contrast = 1, pivot = 0.5;
+};
+
 struct CloudGroup {
   Arrangement arrangement = Arrangement::point;
   double places = 1;       // of the arrangement
@@ -62,6 +73,7 @@ struct Trial {
   Light light = Light::emission;
   Projection projection = Projection::orthographic;
   Sampling sampling = Sampling::mean;
+  ToneCurve tone = ToneCurve::linear;
   MapKind map = MapKind::none;
   CompositeShape shape = CompositeShape::rows;
   double tolerance = 1e-3;
@@ -99,6 +111,7 @@ struct Trial {
   double period = 0;  // the groups' clouds are each so-many-th of the file; 0: the first ones
   double offset = 0;  // from this place in the file on
   double jitter_seed = 1;
+  Shown shown;
   std::vector<CloudGroup> groups;
 };
 
@@ -118,6 +131,7 @@ struct Gene {
 };
 const std::vector<Gene<Trial>>& trial_genes();
 const std::vector<Gene<CloudGroup>>& group_genes();
+const std::vector<Gene<Shown>>& shown_genes();  // of trials where it is on
 
 LightPlan plan_of(Light light);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/lit_pictures.h"
 #include "cli/program.h"
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/image_file.h"
@@ -21,12 +22,10 @@ double brightness(const std::filesystem::path& path) {
   return sum / (static_cast<double>(image.pixels.size()) * 3 / 4);
 }
 
-TEST(Flight, KeepsTheWebsBackgroundAsBrightAsTheStartDoes) {
-  SKIP_WITHOUT_DEVICE();
-  const TemporaryFolder folder;
+ProgramResult fly(const TemporaryFolder& folder, const std::string& frames) {
   write_image(folder / "spiral.exr", SpiralPicture().draw());
   const std::string source = test::source_folder().string();
-  const ProgramResult result = run_in(
+  return run_in(
       folder, "mkdir examples demo && cp '" + source + "/examples/fly_in.toml' examples && '" +
                   source +
                   "/scripts/fly_in' --path > demo/fly_in.path && "
@@ -34,9 +33,26 @@ TEST(Flight, KeepsTheWebsBackgroundAsBrightAsTheStartDoes) {
                   "\"$splotchcl\" galaxy spiral.exr -o demo/galaxy.hdf5 --disk-stars 100 "
                   "--bulge-stars 100 --clusters 1 --cloud-points 1 && "
                   "sed -i 's/ component.galaxy.brightness//; s/ [0-9.]*$//' demo/fly_in.path && "
-                  "\"$splotchcl\" movie examples/fly_in.toml -o f_%03d.exr --frames 0:300:299 "
-                  "--set image.size=[160,90] --set component.galaxy.brightness=0 "
+                  "\"$splotchcl\" movie examples/fly_in.toml " +
+                  frames +
+                  " --set image.size=[160,90] --set component.galaxy.brightness=0 "
                   "--set component.dust.absorption=0");
+}
+
+// The universe alone, around the place where the galaxy would be.
+TEST(Flight, IsLitFromBeginningToEnd) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  const ProgramResult result = fly(folder, "-o f_%d.png --frames 0:300:33");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  for (int i = 0; i < 300; i += 33)
+    expect_lit(read_image(folder / ("f_" + std::to_string(i) + ".png")), i);
+}
+
+TEST(Flight, KeepsTheWebsBackgroundAsBrightAsTheStartDoes) {
+  SKIP_WITHOUT_DEVICE();
+  const TemporaryFolder folder;
+  const ProgramResult result = fly(folder, "-o f_%03d.exr --frames 0:300:299");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const double start = brightness(folder / "f_000.exr"), end = brightness(folder / "f_299.exr");
   EXPECT_GT(end, 0.7 * start);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cli/lit_pictures.h"
 #include "cli/program.h"
 #include "damaged_hdf5.h"
 #include "galaxy/galaxy_picture.h"
@@ -66,6 +67,14 @@ TEST_F(GalaxyScene, HoldsAtEveryInclination) {
     EXPECT_LE(clipped_part(image), 0.01) << degrees;
     EXPECT_GT(brightest(image), 0.5) << degrees;
   }
+}
+
+TEST_F(GalaxyScene, IsLitAllAlongWhereItTurns) {
+  const auto turned = splotchcl_in(
+      folder_, "evolve m.hdf5 scenes/m.toml --frames 10 -o t_%d.png --set image.size=[160,90]");
+  ASSERT_EQ(turned.exit_code, 0) << turned.err;
+  for (int i = 0; i < 10; ++i)
+    expect_lit(read_image(folder_ / ("t_" + std::to_string(i) + ".png")), i);
 }
 
 TEST_F(GalaxyScene, WhatIsSuggestedHasTheDust) {

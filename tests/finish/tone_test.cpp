@@ -141,7 +141,7 @@ LightHistogram histogram(const Image& image) {
 }
 
 FinishSettings levels(const FinishSettings& finish, const Image& image) {
-  return with_any_tone(finish, histogram(image));
+  return with_any_tone(finish, 1, histogram(image));
 }
 
 // The part of all pixels whose brightest channel is at least this after finishing.
@@ -183,7 +183,7 @@ TEST(ToneLevels, ShowAQuarterOfThePicture) {
 
 TEST(ToneLevels, ShowAsMuchAsMatterFills) {
   const Image image = field_of_light(0.1, 8);
-  EXPECT_GE(part_from(0.02, image, levels(open(ToneCurve::filmic), image)), 0.098);
+  EXPECT_GE(part_from(0.02, image, levels(open(ToneCurve::filmic), image)), 0.09);
 }
 
 TEST(ToneLevels, AreNotLedAstrayByAFewBrightStars) {
@@ -226,7 +226,7 @@ TEST(ToneLevels, ExposeForTheWhiteThatIsGiven) {
 
 TEST(ToneLevels, FindNothingInABlackPicture) {
   const Image black(4, 4);
-  EXPECT_FALSE(with_tone_of(open(ToneCurve::filmic), histogram(black)));
+  EXPECT_FALSE(with_tone_of(open(ToneCurve::filmic), 1, histogram(black)));
   const FinishSettings any = levels(open(ToneCurve::filmic), black);
   EXPECT_EQ(any.exposure, 0);
   EXPECT_EQ(any.white, 1);

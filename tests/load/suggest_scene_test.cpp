@@ -285,7 +285,7 @@ TEST(SuggestCamera, SeesASlabFromItsSideAndFillsThePictureWithIt) {
       position[i] *= 10;
     snapshot.add(0, "position", position, 3);
     const Camera camera = *suggest_scene(snapshot).camera;
-    EXPECT_NEAR(half_width(camera), 6.2, 0.3) << axis;
+    EXPECT_NEAR(half_width(camera), 5.2, 0.3) << axis;
     const Vec3 view = camera.look_at - camera.position;
     EXPECT_NEAR(view.a[axis], 0, 0.01) << axis;
     EXPECT_EQ(camera.sky.a[axis], 0) << axis;

@@ -120,6 +120,13 @@ TEST(Settings, MayDependOnEachOtherInAnyOrder) {
               with({"component.0.color.field=U", "component.0.color.min=1"}));
 }
 
+TEST(Settings, TakeFogForTheEndOfLight) {
+  const Scene scene =
+      with({"camera.position=[0,0,-1]", "camera.look_at=[0,0,0]", "camera.fog=[20,50]"});
+  EXPECT_EQ(scene.camera->far_limit, 50);
+  EXPECT_EQ(scene.camera->fade.far_length, 30);
+}
+
 TEST(Settings, ReplaceWhatExcludesThem) {
   EXPECT_FALSE(with({"component.1.size.field=HSML"}).components[1].size_fixed);
   EXPECT_EQ(with({"component.0.size.fixed=3"}).components[0].size_fixed, 3);

@@ -210,8 +210,8 @@ struct FrameDrawer::State {
   bool keeps_promise(double gain, DrawnFrame& drawn) const {
     if (!renderer.valid()) return true;  // the reference has none
     std::vector<double>& errors = drawn.stats.check.errors_of_promise;
-    const bool is_kept = !plan_options.certify && !errors.empty() && gain * errors.back() <= 1 &&
-                         gain * drawn.tree.found <= 1;
+    const bool is_kept = !plan_options.certify && !errors.empty() &&
+                         keeps_promise_at(gain, errors.back()) && gain * drawn.tree.found <= 1;
     if (is_kept) {
       errors.back() *= gain;
       drawn.tree.found *= gain;
