@@ -58,7 +58,8 @@ TEST_F(TypedOptions, AreNamedWhereNoParticleHasTheirField) {
 TEST_F(TypedOptions, NameUnitsInOneWay) {
   EXPECT_THAT(error_of("render s.hdf5 --units gadget --set read.units=cgs"),
               HasSubstr("--units gadget: found --set read.units=cgs beside it"));
-  EXPECT_THAT(error_of("render s.hdf5 --units gadgets"), HasSubstr("--units: gadgets not in {gadget,cgs,si}"));
+  EXPECT_THAT(error_of("render s.hdf5 --units gadgets"),
+              HasSubstr("--units: gadgets not in {gadget,cgs,si}"));
 }
 
 TEST_F(TypedOptions, AreNamedWhereNothingTellsAHalo) {
