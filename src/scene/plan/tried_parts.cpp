@@ -132,6 +132,9 @@ std::vector<Rectangle> LightMap::telling_parts(LightPlan light) const {
   add_largest([&](const Cell& cell, const Cell& near) {
     return is_at_edge(cell) ? near.light + cell.beside : 0;
   });
+  add_largest([&](const Cell& cell, const Cell& near) {
+    return is_at_edge(cell) ? near.narrow / std::max(1.0, cell.light) : 0;
+  });
   return parts;
 }
 
