@@ -146,12 +146,10 @@ typedef struct Measured {
   float peak, width2, ending;
 } Measured;
 
-#if ELLIPSES
 // The square of the width along an axis of which means or center values were drawn.
 INLINED VALUE without_widening(VALUE sigma2, INTEGER by_mean, const CertifyParameters* p) {
   return choose(larger_of(sigma2 - p->widening, (VALUE)(0.0f)), sigma2, by_mean);
 }
-#endif
 
 INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParameters* p,
                                const GridOfCells grid, const Reach reach) {
@@ -161,10 +159,16 @@ INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParamet
   const INTEGER by_mean = (drawn_sigma < grid.mean_sigma) & (is_stencil == 0);
   const VALUE sigma2 = sigma * sigma;
 #if ELLIPSES
+  // Such pictures have no coarse grids. The octave is to be the one that the projection took.
   const VALUE drawn_x = OF_ENTRIES(s, along_x.sigma), sigma_x = fabs(drawn_x);
   const VALUE area = sigma * sigma_x;
+  const VALUE of_y2 = without_widening(sigma2, by_mean, p);
+  const VALUE of_x2 = without_widening(sigma_x * sigma_x, drawn_x < grid.mean_sigma, p);
+  const VALUE width2 = larger_of(of_y2, sqrt(of_y2 * of_x2)) + p->widening;
 #else
   const VALUE area = sigma2;
+  const VALUE lacking = choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
+  const VALUE width2 = area + choose(lacking, (VALUE)(0.0f), is_stencil);
 #endif
   MeasuredLanes m;
   m.counts_here = (x >= reach.x0) & (x < reach.x1) & (y >= reach.y0) & (y < reach.y1);
@@ -173,15 +177,7 @@ INLINED MeasuredLanes measured(__global const TileSplat* s, const CertifyParamet
   // The flux, not the peak, limits what a splat below a pixel does to a pixel.
   const VALUE flux = smaller_of(3.15f * area, (VALUE)(1.0f));
   m.peak = amplitudes_of(s, p->light_behind) * choose((VALUE)(1.0f), flux, by_mean);
-#if ELLIPSES
-  // Such pictures have no coarse grids. The octave is to be the one that the projection took.
-  const VALUE of_y2 = without_widening(sigma2, by_mean, p);
-  const VALUE of_x2 = without_widening(sigma_x * sigma_x, drawn_x < grid.mean_sigma, p);
-  m.width2 = larger_of(of_y2, sqrt(of_y2 * of_x2)) + p->widening;
-#else
-  const VALUE lacking = choose((VALUE)(grid.blur), (VALUE)(p->widening), by_mean);
-  m.width2 = area + choose(lacking, (VALUE)(0.0f), is_stencil);
-#endif
+  m.width2 = width2;
   // On a grid that is blurred a splat is drawn narrower and brighter than it is in the picture, and
   // what it leaves out is spread as well (docs/dev/accuracy.md, "Checked after drawing").
   if (grid.blur > 0.0f) m.peak *= area / m.width2;

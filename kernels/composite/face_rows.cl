@@ -33,7 +33,7 @@ static inline void fill_rows(float* values, const Window* window, __global const
 #if LIGHT_ORDERED
 static inline int form_of_splat(__global const TileSplat* splat, const SplatTile* of_tile,
                                 float* depth_of_block, const CompositeParameters* p) {
-  const float deepest = largest_absorption(splat);
+  const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2]));
   *depth_of_block += deepest;
   return form_of_layer(deepest, *depth_of_block, p);
 }

@@ -131,12 +131,6 @@ static inline void fill_limits(float* along, float first, float low, int count,
 // transmittance is carried.
 #define DEPTH_OF_OPACITIES (KEEP_TRANSMITTANCE ? 0.45f : INFINITY)
 
-#if LIGHT_ORDERED
-static inline float largest_absorption(__global const TileSplat* splat) {
-  return max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2]));
-}
-#endif
-
 static inline int form_of_layer(float deepest, float depth_of_block, const CompositeParameters* p) {
   if (deepest <= p->phi_third && depth_of_block <= DEPTH_OF_OPACITIES) {
     if (deepest <= p->phi_first) return BY_ONE_TERM;

@@ -133,7 +133,7 @@ static inline int form_of_splat(__global const TileSplat* splat, const SplatTile
                                 float* depth_of_block, const CompositeParameters* p) {
   const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
   const float deepest =
-      largest_absorption(splat) *
+      max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
       (sigma < of_tile->mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
   *depth_of_block += deepest;
   return form_of_layer(deepest, *depth_of_block, p);

@@ -49,10 +49,11 @@ static inline void let_wait(float* tile, WaitingSplats* waiting, int2 rows, int2
                             __global const TileSplat* splat, float mean_sigma, int form) {
   const uint number = waiting->count++;
   put_splat(&waiting->shapes, number, rows, columns, splat, mean_sigma);
-#if LIGHT_ORDERED
-  waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
-  waiting->forms.absorption[number] = largest_absorption(splat);
-#endif
+  if (LIGHT_ORDERED) {
+    const float* absorption = waiting->shapes.light + (number + 1) * PLANES - 3;
+    waiting->forms.more_terms |= (ShapeBits)(form > BY_ONE_TERM) << number;
+    waiting->forms.absorption[number] = max(absorption[0], max(absorption[1], absorption[2]));
+  }
   if (waiting->count == MOST_SHAPES) add_waiting(tile, waiting);
 }
 
