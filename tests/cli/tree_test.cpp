@@ -25,7 +25,7 @@ class Trees : public ::testing::Test {
   ProgramResult render(const std::string& arguments) const {
     return splotchcl_in(folder_,
                         "render u --set kernel.footprint=0.5 --size 24x16 "
-                        "--tolerance 0.01 -o u.png " +
+                        "--tolerance 0.02 -o u.png " +
                             arguments);
   }
   nlohmann::json stats() const {

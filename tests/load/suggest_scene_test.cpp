@@ -397,12 +397,12 @@ TEST_P(SuggestedPicture, HasHardlyAnyWhitePixels) {
   EXPECT_LE(part_from(white, drawn(scene_, *snapshot_, darkest_channel)), 0.005);
 }
 
-// Matter fills what has a thousandth of the light of the brightest pixel.
+// Matter fills what has two thousandths of the light of the brightest pixel.
 TEST_P(SuggestedPicture, ShowsAQuarterOfItselfOrAsMuchAsMatterFills) {
   Scene as_drawn = scene_;
   as_drawn.finish = {};
   const std::vector<float> light = drawn(as_drawn, *snapshot_);
-  const double filled = part_from(1e-3 * static_cast<double>(light.back()), light);
+  const double filled = part_from(2e-3 * static_cast<double>(light.back()), light);
   EXPECT_GE(part_from(0.02, drawn(scene_, *snapshot_)), std::min(0.25, filled));
 }
 
