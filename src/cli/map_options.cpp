@@ -42,7 +42,7 @@ const std::vector<MapOption>& map_options() {
        "Fill the shell with periodic images of the box; default: each particle once, where it is "
        "nearest"},
       {"voxels", "voxels", MapText::counts, "N|NX,NY,NZ",
-       "A cube of voxels, --width along x: .fits, .hdf5 or .npy"},
+       "A cube of voxels, --width along x: .fits, .hdf5, .npy or .vdb"},
       {"profile", "profile", MapText::count, "N",
        "A radial profile around --center in so many shells; also as .csv and .ecsv"},
       {"histogram", "histogram", MapText::words, "FIELD,FIELD",

@@ -11,6 +11,7 @@
 #include "formats/hdf5/hdf5_writer.h"
 #include "map/figure.h"
 #include "map/shape.h"
+#include "map/voxel_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 
@@ -31,7 +32,7 @@ bool is_text_table(const std::string& ending) {
 bool is_figure(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
   return !(is_text_table(ending) || is_fits(ending) || is_hdf5(ending) || ending == ".npy" ||
-           ending == ".exr");
+           ending == ".vdb" || ending == ".exr");
 }
 
 constexpr const char* endings_of_maps =
@@ -95,6 +96,22 @@ void write_as_exr(const std::filesystem::path& path, const Map& map,
   write_image(path, numbers_as_image(map), options);
 }
 
+VoxelFile voxels_of(const Map& map, const MapMetadata& metadata) {
+  VoxelFile voxels;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const MapAxis& of_map = map.axes[axis];
+    voxels.size[axis] = of_map.cells;
+    voxels.corner.a[axis] = of_map.edge(0);
+    voxels.voxel.a[axis] = (of_map.edge(of_map.cells) - of_map.edge(0)) / of_map.cells;
+  }
+  voxels.values = upside_down(map.values, map.width, map.height);
+  voxels.name = map.quantity;
+  voxels.metadata = metadata;
+  voxels.metadata["unit"] = map.unit;
+  voxels.metadata["length_unit"] = map.length_unit;
+  return voxels;
+}
+
 }  // namespace
 
 Image numbers_as_image(const Map& map) {
@@ -131,6 +148,11 @@ void check_map_output(const std::filesystem::path& path, const Scene& scene,
   const std::string ending = lower_ending(path);
   if (is_text_table(ending) && shape != MapShape::profile)
     refuse_shape(path, "holds a profile, not a map", ".fits, .hdf5 or .npy");
+  if (ending == ".vdb") {
+    if (shape != MapShape::voxels)
+      refuse_shape(path, "holds the cube of map.voxels", ".fits, .hdf5 or .npy");
+    require_voxel_files();
+  }
   if (is_cube(shape) && (is_figure(path) || ending == ".exr"))
     refuse_shape(path, cube_is_no_picture(shape), ".fits, .hdf5 or .npy");
   if ((shape == MapShape::healpix || shape == MapShape::profile) && ending == ".exr")
@@ -141,7 +163,7 @@ void check_map_output(const std::filesystem::path& path, const Scene& scene,
 void check_map_path(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
   if (is_fits(ending) || is_hdf5(ending) || is_text_table(ending) || ending == ".npy" ||
-      ending == ".pdf") {
+      ending == ".vdb" || ending == ".pdf") {
     check_output_path(path);
   } else if (ending == ".tif" || ending == ".tiff" || ending == ".hdr") {
     throw UsageError(path.string() + ": holds light, not a map; " + endings_of_maps);
@@ -164,6 +186,10 @@ std::vector<std::string> write_map(const std::filesystem::path& path, const Map&
     file.finish();
   } else if (ending == ".npy") {
     write_bytes(path, encode_npy(map));
+  } else if (ending == ".vdb") {
+    UnfinishedFile file(path);
+    write_voxel_file(file.temporary_path(), voxels_of(map, metadata));
+    file.finish();
   } else if (is_text_table(ending)) {
     const std::string text = profile_as_text(map, ending == ".ecsv", metadata);
     write_bytes(path, {text.begin(), text.end()});

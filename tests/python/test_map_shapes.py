@@ -82,6 +82,28 @@ def test_voxels_have_weighted_means_of_fields_of_both_signs(statistic):
     assert found == pytest.approx(wanted, abs=1e-5)
 
 
+def test_voxels_for_openvdb_are_those_of_the_array(program, universe, tmp_path):
+    openvdb, h5py = pytest.importorskip("pyopenvdb"), pytest.importorskip("h5py")
+    cube = ["map", universe, "--types", "gas", "--voxels", "7,6,5"]
+    program(*cube, "-o", tmp_path / "cube.npy")
+    program(*cube, "-o", tmp_path / "cube.hdf5")
+    try:
+        program(*cube, "-o", tmp_path / "cube.vdb")
+    except AssertionError as missing:
+        pytest.skip(str(missing)) if "libsplotchcl_openvdb" in str(missing) else pytest.fail(str(missing))
+    grid = openvdb.readAll(str(tmp_path / "cube.vdb"))[0][0]
+    found = np.zeros((7, 6, 5), np.float32)
+    grid.copyToArray(found)
+    assert np.array_equal(found.transpose(2, 1, 0), np.load(tmp_path / "cube.npy"))
+    with h5py.File(tmp_path / "cube.hdf5") as file:
+        for axis, name in enumerate(("x_edges", "y_edges", "z_edges")):
+            edges = file[name][:]
+            place = grid.transform.indexToWorld((3, 2, 1))[axis]
+            at = (3, 2, 1)[axis]
+            assert place == pytest.approx(0.5 * (edges[at] + edges[at + 1]))
+        assert grid["unit"] == file["map"].attrs["unit"].decode()
+
+
 def test_voxels_without_matter_have_no_mean():
     arrays = matter(5, least=1e-3, most=2e-3)
     assert np.isnan(drawn(arrays, "charge", voxels=6, width=2.0).values).any()
