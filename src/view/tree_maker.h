@@ -19,7 +19,7 @@ namespace splotchcl::view {
 class TreeMaker {
  public:
   // Of fewer particles a random part shows enough while the picture moves.
-  static constexpr std::uint64_t fewest = 1000000;
+  static constexpr std::uint64_t fewest = 8000000;
 
   // Reads the columns, which the snapshot holds, in this thread. Makes nothing of fewer particles,
   // where there is a tree, or where the scene's time chooses the snapshot.
