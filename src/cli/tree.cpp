@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -18,19 +17,6 @@
 
 namespace splotchcl::cli {
 namespace {
-
-// What a first picture of the type uses.
-std::vector<std::string> usual_fields(const Scene& suggested, int type) {
-  std::set<std::string> fields;
-  for (const Component& component : suggested.components) {
-    if (std::find(component.types.begin(), component.types.end(), type) == component.types.end())
-      continue;
-    for (const FieldMap* const map : {&component.color, &component.intensity}) {
-      if (!map->field.empty()) fields.insert(map->field);
-    }
-  }
-  return {fields.begin(), fields.end()};
-}
 
 std::vector<int> types_of(const TreeCommandOptions& options, const SnapshotInfo& info) {
   std::vector<int> types;
@@ -68,7 +54,7 @@ int run_tree(const TreeCommandOptions& options, Console& console) {
   std::uint64_t particles = 0, nodes = 0;
   for (const int type : types_of(options, info)) {
     const std::vector<std::string> fields =
-        options.fields.empty() ? usual_fields(suggested, type) : options.fields;
+        options.fields.empty() ? fields_shown(suggested, type) : options.fields;
     std::vector<std::string> notes;
     const LoadProgress reading = [&](const std::string& what, double fraction) {
       console.progress(what, fraction);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "load/component_fields.h"
@@ -83,6 +84,18 @@ std::string tell_stale_tree(const Snapshot& snapshot) {
       "{} is not used: it is of other files than those beside it, damaged, or someone else's; "
       "splotchcl tree makes it anew",
       tree_path(snapshot.info()).string());
+}
+
+std::vector<std::string> fields_shown(const Scene& scene, int type) {
+  std::set<std::string> fields;
+  for (const Component& component : scene.components) {
+    if (std::find(component.types.begin(), component.types.end(), type) == component.types.end())
+      continue;
+    for (const FieldMap* const map : {&component.color, &component.intensity}) {
+      if (!map->field.empty()) fields.insert(map->field);
+    }
+  }
+  return {fields.begin(), fields.end()};
 }
 
 TreeSource tree_source(const Snapshot& snapshot, int type, const std::vector<std::string>& fields,

@@ -34,6 +34,9 @@ void give_trees(const Snapshot& snapshot, const Trees& trees);
 // What to tell of a tree beside the snapshot that is not of its files; empty: nothing.
 std::string tell_stale_tree(const Snapshot& snapshot);
 
+// Of the scene's components that draw the type: what they take color and intensity from.
+std::vector<std::string> fields_shown(const Scene& scene, int type);
+
 // What a tree of one type is made of: its particles as scenes draw them, with masses as weights
 // where these are known, and the fields of these names. Throws as loading a component does.
 TreeSource tree_source(const Snapshot& snapshot, int type, const std::vector<std::string>& fields,

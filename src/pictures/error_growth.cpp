@@ -32,11 +32,12 @@ std::vector<Color> hues() {
 std::vector<Color> colors_up_to(double white) {
   constexpr double darkest = 1e-3, brightest = 2;  // of white
   constexpr int steps = 24;
+  const std::vector<Color> all_hues = hues();
   std::vector<Color> found;
   for (int i = 0; i <= steps; ++i) {
     const double light =
         white * darkest * std::pow(brightest / darkest, static_cast<double>(i) / steps);
-    for (const Color& hue : hues())
+    for (const Color& hue : all_hues)
       found.push_back({light * hue[0], light * hue[1], light * hue[2]});
   }
   return found;

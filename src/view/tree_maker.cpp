@@ -1,6 +1,5 @@
 #include "view/tree_maker.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -15,16 +14,8 @@ namespace {
 struct GivenUp {};
 
 std::vector<std::string> fields_of(const Scene& scene, int type) {
-  std::set<std::string> fields;
-  for (const Component& component : scene.components) {
-    if (std::find(component.types.begin(), component.types.end(), type) == component.types.end())
-      continue;
-    for (const FieldMap* const map : {&component.color, &component.intensity}) {
-      if (!map->field.empty()) fields.insert(map->field);
-    }
-  }
-  if (fields.size() > most_fields) return {};
-  return {fields.begin(), fields.end()};
+  const std::vector<std::string> fields = fields_shown(scene, type);
+  return fields.size() > most_fields ? std::vector<std::string>() : fields;
 }
 
 std::set<int> types_of(const Scene& scene, const SnapshotInfo& info) {
