@@ -1,5 +1,7 @@
 #include "modules/module_file.h"
 
+#include <dlfcn.h>
+
 #include <optional>
 #include <system_error>
 #include <vector>
@@ -50,6 +52,23 @@ std::string module_file(const std::string& module_name) {
     if (fs::exists(place / module_name, ignored)) return (place / module_name).string();
   }
   return (places.front() / module_name).string();
+}
+
+void* module_entry(const std::string& module_name, const char* entry_name,
+                   const std::string& needed_by, const std::string& advice, ModuleSymbols symbols) {
+  const int scope = symbols == ModuleSymbols::global ? RTLD_GLOBAL : RTLD_LOCAL;
+  void* const module = dlopen(module_file(module_name).c_str(), RTLD_NOW | scope);
+  if (module == nullptr) {
+    const std::string reason = dlerror();
+    throw DataError(needed_by + " " + module_name + ", which cannot be loaded (" + reason + "); " +
+                    advice);
+  }
+  void* const entry = dlsym(module, entry_name);
+  if (entry == nullptr) {
+    throw DataError(module_name + " is not of this version of splotchcl (" + dlerror() +
+                    "); install both again");
+  }
+  return entry;
 }
 
 }  // namespace splotchcl

@@ -1,6 +1,5 @@
 #include "ranks/mpi_library.h"
 
-#include <dlfcn.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,21 +22,11 @@ bool is_above_one(const std::string& number) {
   return std::strtol(number.c_str(), nullptr, 10) > 1;
 }
 
-// Never unloaded. `why` ends with a word for the MPI.
+// `why` ends with a word for the MPI.
 const MpiLibrary& load(const std::string& mpi, const std::string& why, const std::string& advice) {
-  const std::string module_name = "libsplotchcl_" + mpi + ".so";
   // Open MPI's own plugins look for its functions among what is global.
-  void* const module = dlopen(module_file(module_name).c_str(), RTLD_NOW | RTLD_GLOBAL);
-  if (module == nullptr) {
-    const std::string reason = dlerror();
-    throw DataError(why + ", which needs " + module_name + ", which cannot be loaded (" + reason +
-                    "); " + advice);
-  }
-  void* const entry = dlsym(module, mpi_library_entry);
-  if (entry == nullptr) {
-    throw DataError(module_name + " is not of this version of splotchcl (" + dlerror() +
-                    "); install both again");
-  }
+  void* const entry = module_entry("libsplotchcl_" + mpi + ".so", mpi_library_entry,
+                                   why + ", which needs", advice, ModuleSymbols::global);
   return *reinterpret_cast<MpiLibraryEntry*>(entry)();
 }
 
