@@ -65,7 +65,7 @@ struct BinParameters {
 // list (tiles.cl).
 struct SplatTiles {
   unsigned int first, columns, rows, grid_columns;
-};
+} BY_FOUR_WORDS;
 #define BEHIND_OTHERS 0xffffffffu
 // Splats of at most so many tiles are counted tile by tile.
 #define FEW_TILES 4

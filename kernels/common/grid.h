@@ -3,6 +3,14 @@
 // them differently.
 #pragma once
 
+// Of a structure of so many words: a kernel loads and stores them by fours. To the host it is an
+// array of words.
+#ifdef __OPENCL_C_VERSION__
+#define BY_FOUR_WORDS __attribute__((aligned(16)))
+#else
+#define BY_FOUR_WORDS
+#endif
+
 // Splats are told apart by the octave of their width in pixels (plan.h, width_octaves).
 #define WIDTH_OCTAVES 16
 

@@ -40,8 +40,10 @@ struct Splat {
 #endif
 #if WHOLE_SECTORS
   unsigned int unused;  // a GPU gathers 32 bytes at a time
-#endif
+} BY_FOUR_WORDS;
+#else
 };
+#endif
 
 #define ABSORPTION_AS_EMISSION 0
 #define ABSORPTION_NONE 1

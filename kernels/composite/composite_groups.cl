@@ -64,32 +64,35 @@ static inline void add_channel(float* pixel, int c, float emission, float absorp
   pixel[c + 3] = carry(opacity, u * absorption, t * passed);
 }
 
-INLINED void add_thin_splat(float* pixel, const __local float4* amplitudes, float shape) {
-  const float4 absorption = amplitudes[0], emission = amplitudes[1];
+INLINED void add_thin_splat(float* pixel, const __local BatchLight* light, uint k, float shape) {
+  const float4 layer = light->absorption_and_red[k];
+  const float2 emission = light->green_and_blue[k];
   const float half_square = 0.5f * (shape * shape);
-  add_thin_channel(pixel, 0, emission.x, absorption.x, shape, half_square);
-  add_thin_channel(pixel, 1, emission.y, absorption.y, shape, half_square);
-  add_thin_channel(pixel, 2, emission.z, absorption.z, shape, half_square);
+  add_thin_channel(pixel, 0, layer.w, layer.x, shape, half_square);
+  add_thin_channel(pixel, 1, emission.x, layer.y, shape, half_square);
+  add_thin_channel(pixel, 2, emission.y, layer.z, shape, half_square);
 }
 
-INLINED void add_splat(float* pixel, const __local float4* amplitudes, float shape,
+INLINED void add_splat(float* pixel, const __local BatchLight* light, uint k, float shape,
                        const CompositeParameters p) {
+  const float deepest = light->deepest[k];
 #if !KEEP_TRANSMITTANCE
-  if (amplitudes[0].w <= p.phi_short) {
-    add_thin_splat(pixel, amplitudes, shape);
+  if (deepest <= p.phi_short) {
+    add_thin_splat(pixel, light, k, shape);
     return;
   }
 #endif
-  const float4 absorption = amplitudes[0], emission = amplitudes[1];
-  const int by_series = absorption.w <= p.phi_series;
-  add_channel(pixel, 0, emission.x, absorption.x, shape, by_series);
-  add_channel(pixel, 1, emission.y, absorption.y, shape, by_series);
-  add_channel(pixel, 2, emission.z, absorption.z, shape, by_series);
+  const float4 layer = light->absorption_and_red[k];
+  const float2 emission = light->green_and_blue[k];
+  const int by_series = deepest <= p.phi_series;
+  add_channel(pixel, 0, layer.w, layer.x, shape, by_series);
+  add_channel(pixel, 1, emission.x, layer.y, shape, by_series);
+  add_channel(pixel, 2, emission.y, layer.z, shape, by_series);
 }
 #else
-INLINED void add_thin_splat(float* pixel, const __local float4* amplitudes, float shape) {
-  for (int i = 0; i < AMPLITUDES; ++i) {
-    const float4 summed = amplitudes[i];
+INLINED void add_thin_splat(float* pixel, const __local BatchLight* light, uint k, float shape) {
+  for (int i = 0; i < SUMMED / 3; ++i) {
+    const float4 summed = light->summed[k * (SUMMED / 3) + i];
     pixel[3 * i] += shape * summed.x;
     pixel[3 * i + 1] += shape * summed.y;
     pixel[3 * i + 2] += shape * summed.z;
@@ -136,13 +139,12 @@ INLINED void draw(float* pixel, const __local Batch* batch, const __local Listed
     const float shape = CLOUDS_IN_LISTS && is_cloud(sigma)
                             ? column_of_cloud(cloud_of(sigma, clouds), clouds, (int)x, (int)y)
                             : shape_at(batch, listed, k, x, y TILE_PASSED);
-    if (shape > 0.0f) add_splat(pixel, batch->amplitudes + k * AMPLITUDES, shape, p);
+    if (shape > 0.0f) add_splat(pixel, &batch->light, k, shape, p);
   }
 #endif
   while (bits != 0) {
     const uint k = take_first(&bits);
-    add_thin_splat(pixel, batch->amplitudes + k * AMPLITUDES,
-                   shape_at(batch, listed, k, x, y TILE_PASSED));
+    add_thin_splat(pixel, &batch->light, k, shape_at(batch, listed, k, x, y TILE_PASSED));
   }
 }
 

@@ -28,13 +28,17 @@
 #define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
 #define ENTRY_WORDS (sizeof(TileSplat) / sizeof(uint))
 
-// What all pixels need of a splat's light, in words of four floats: absorption with the optical
-// depth in any pixel at most, emission; in sums what they add up, by threes.
+// What all pixels need of the light of a batch's splats. A warp takes four clocks for four floats
+// of local memory, so that the six of a layer lie in six, and not in eight.
+typedef struct BatchLight {
 #if LIGHT_ORDERED
-#define AMPLITUDES 2
+  float4 absorption_and_red[BATCH];  // absorption, and what is emitted of the first channel
+  float2 green_and_blue[BATCH];      // that is emitted
+  float deepest[BATCH];              // the optical depth in any pixel at most
 #else
-#define AMPLITUDES (SUMMED / 3)
+  float4 summed[BATCH * (SUMMED / 3)];  // by threes
 #endif
+} BatchLight;
 
 // Which pixels a cut leaves out follows from two numbers, of the column and of the row.
 #if KERNEL_CUT && !FACE_OF_CUBE && !ELLIPSES
@@ -53,7 +57,7 @@ typedef struct Listed {
 
 // What all pixels need of them.
 typedef struct Batch {
-  float4 amplitudes[BATCH * AMPLITUDES];
+  BatchLight light;
   Axis axes[BATCH * AXES];  // of each splat, columns, then rows
   Flags touching;           // splats that reach the center of a pixel of the tile
   Flags drawn[PARTS];       // those of a part
@@ -140,15 +144,13 @@ static inline int reaches_part(const __local TileSplat* splat, float x, float y,
 #endif
 }
 
-static inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
 #if LIGHT_ORDERED
+static inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
   const float flux = 3.15f * fabs(splat->sigma * SIGMA_X(*splat));
   return max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
          (splat->sigma < mean_sigma ? min(1.0f, flux) : 1.0f);
-#else
-  return 0.0f;
-#endif
 }
+#endif
 
 INLINED void fetch(__local Listed* listed, __global const TileSplat* entries, uint first,
                    uint count, float mean_sigma) {
@@ -163,34 +165,35 @@ INLINED void fetch(__local Listed* listed, __global const TileSplat* entries, ui
   }
 }
 
-// Columns of clouds are worked out where layers may be thick.
-INLINED int prepare_cloud(__local float4* amplitudes, __global const CloudEntry* cloud) {
-  const float4 absorption =
-      (float4)(cloud->absorption[0], cloud->absorption[1], cloud->absorption[2], cloud->deepest);
-  amplitudes[0] = absorption;
-  amplitudes[1] = (float4)(cloud->emission[0], cloud->emission[1], cloud->emission[2], 0.0f);
-  return 1;
-}
-// Returns whether two terms do not serve for the layer.
-INLINED int prepare_amplitudes(__local float4* amplitudes, const __local TileSplat* splat,
-                               float mean_sigma, const CompositeParameters p,
-                               const TileClouds* clouds) {
-  if (CLOUDS_IN_LISTS && is_cloud(splat->sigma))
-    return prepare_cloud(amplitudes, cloud_of(splat->sigma, clouds));
 #if LIGHT_ORDERED
-  const float4 absorption = (float4)(splat->absorption[0], splat->absorption[1],
-                                     splat->absorption[2], deepest_of(splat, mean_sigma));
-  amplitudes[0] = absorption;
-  amplitudes[1] = (float4)(splat->emission[0], splat->emission[1], splat->emission[2], 0.0f);
-  return absorption.w > p.phi_short;
-#else
-  for (int i = 0; i < AMPLITUDES; ++i) {
-    const __local float* summed = splat->summed + 3 * i;
-    amplitudes[i] = (float4)(summed[0], summed[1], summed[2], 0.0f);
-  }
-  return 0;
-#endif
+INLINED void put_layer(__local BatchLight* light, uint k, const float3 absorption,
+                       const float3 emission, float deepest) {
+  light->absorption_and_red[k] = (float4)(absorption, emission.x);
+  light->green_and_blue[k] = emission.yz;
+  light->deepest[k] = deepest;
 }
+
+// Returns whether two terms do not serve for the layer; columns of clouds are worked out where they
+// do not.
+INLINED int prepare_light(__local BatchLight* light, uint k, const __local TileSplat* splat,
+                          float mean_sigma, const CompositeParameters p, const TileClouds* clouds) {
+  if (CLOUDS_IN_LISTS && is_cloud(splat->sigma)) {
+    __global const CloudEntry* cloud = cloud_of(splat->sigma, clouds);
+    put_layer(light, k, vload3(0, cloud->absorption), vload3(0, cloud->emission), cloud->deepest);
+    return 1;
+  }
+  const float deepest = deepest_of(splat, mean_sigma);
+  put_layer(light, k, vload3(0, splat->absorption), vload3(0, splat->emission), deepest);
+  return deepest > p.phi_short;
+}
+#else
+INLINED int prepare_light(__local BatchLight* light, uint k, const __local TileSplat* splat,
+                          float mean_sigma, const CompositeParameters p, const TileClouds* clouds) {
+  for (int i = 0; i < SUMMED / 3; ++i)
+    light->summed[k * (SUMMED / 3) + i] = (float4)(vload3(i, splat->summed), 0.0f);
+  return 0;
+}
+#endif
 
 // Whether an entry touches the tile, or the part of it around (x, y).
 INLINED int touches(const __local TileSplat* splat, const TileClouds* clouds) {
@@ -248,8 +251,7 @@ INLINED void prepare(__local Batch* batch, const __local Listed* listed, uint co
   if (part == PARTS - 1) {
     int is_thick = 0, is_touching = 0;
     if (k < count) {
-      is_thick =
-          prepare_amplitudes(batch->amplitudes + k * AMPLITUDES, splat, mean_sigma, p, clouds);
+      is_thick = prepare_light(&batch->light, k, splat, mean_sigma, p, clouds);
       is_touching = touches(splat, clouds);
     }
     store_flag(&batch->thick, k, is_thick);

@@ -26,45 +26,74 @@ __kernel OF_GROUPS void sort_count(const GroupSortParameters p, __global const u
   if (item < 1u << p.bits) histograms[item * p.group_count + group] = counts[item];
 }
 
-// A group's pairs in local memory.
+// A group's pairs in local memory. What lies one behind the other is read sixteen bytes at a time:
+// read one by one, the numbers of neighboring items would lie in the same banks.
 #define SPLIT_BITS 4
 #define SPLIT_DIGITS (1 << SPLIT_BITS)
 typedef struct GroupPairs {
-  uint keys[SORT_STRETCH], values[SORT_STRETCH];
+  uint4 keys[SORT_STRETCH / 4], values[SORT_STRETCH / 4];
   // Of each digit and item: how many of its pairs have it, then where the next of them goes.
-  ushort places[SPLIT_DIGITS * GROUP_ITEMS];
+  ushort8 places[SPLIT_DIGITS * GROUP_ITEMS / 8];
   uint sums[GROUP_ITEMS];
   uint starts[SORT_DIGITS];
 } GroupPairs;
+REQUIRE(two_fours_of_pairs, SORT_PAIRS_OF_ITEM == 8);
+REQUIRE(two_eights_of_counts, SPLIT_DIGITS == 16);
+
+INLINED void load_pairs(const __local uint4* from, uint item, uint* to) {
+  vstore4(from[2 * item], 0, to);
+  vstore4(from[2 * item + 1], 1, to);
+}
+
+INLINED uint sum_of_eight(ushort8 counts) {
+  const ushort4 four = counts.lo + counts.hi;
+  const ushort2 two = four.lo + four.hi;
+  return (uint)two.x + two.y;
+}
+
+// Each count's place behind those before it, of which there are `before`.
+INLINED ushort8 places_behind(ushort8 counts, uint before) {
+  ushort8 places;
+  places.s0 = (ushort)before;
+  places.s1 = places.s0 + counts.s0;
+  places.s2 = places.s1 + counts.s1;
+  places.s3 = places.s2 + counts.s2;
+  places.s4 = places.s3 + counts.s3;
+  places.s5 = places.s4 + counts.s4;
+  places.s6 = places.s5 + counts.s5;
+  places.s7 = places.s6 + counts.s6;
+  return places;
+}
+
+// An item takes as many counts as there are digits, one after the other: all of them together are
+// scanned in the order of digits, then items.
+INLINED void scan_places(__local GroupPairs* pairs) {
+  __local ushort8* own = pairs->places + 2 * get_local_id(0);
+  const uint of_first = sum_of_eight(own[0]);
+  uint total;
+  const uint before = group_scan(of_first + sum_of_eight(own[1]), pairs->sums, &total);
+  own[0] = places_behind(own[0], before);
+  own[1] = places_behind(own[1], before + of_first);
+}
 
 // Orders the group's pairs by SPLIT_BITS bits of their keys, stable.
 INLINED void split_pairs(__local GroupPairs* pairs, uint shift, uint mask) {
   const uint item = get_local_id(0);
+  __local ushort* places = (__local ushort*)pairs->places;
   uint keys[SORT_PAIRS_OF_ITEM], values[SORT_PAIRS_OF_ITEM];
   for (uint d = 0; d < SPLIT_DIGITS; ++d)
-    pairs->places[d * GROUP_ITEMS + item] = 0;
-  for (uint k = 0; k < SORT_PAIRS_OF_ITEM; ++k) {
-    keys[k] = pairs->keys[item * SORT_PAIRS_OF_ITEM + k];
-    values[k] = pairs->values[item * SORT_PAIRS_OF_ITEM + k];
-    ++pairs->places[((keys[k] >> shift) & mask) * GROUP_ITEMS + item];
-  }
+    places[d * GROUP_ITEMS + item] = 0;
+  load_pairs(pairs->keys, item, keys);
+  load_pairs(pairs->values, item, values);
+  for (uint k = 0; k < SORT_PAIRS_OF_ITEM; ++k)
+    ++places[((keys[k] >> shift) & mask) * GROUP_ITEMS + item];
   barrier(CLK_LOCAL_MEM_FENCE);
-  // An item takes as many counts as there are digits, one after the other: all of them together
-  // are scanned in the order of digits, then items.
-  uint sum = 0, total;
-  for (uint d = 0; d < SPLIT_DIGITS; ++d)
-    sum += pairs->places[item * SPLIT_DIGITS + d];
-  uint running = group_scan(sum, pairs->sums, &total);
-  for (uint d = 0; d < SPLIT_DIGITS; ++d) {
-    const ushort count = pairs->places[item * SPLIT_DIGITS + d];
-    pairs->places[item * SPLIT_DIGITS + d] = (ushort)running;
-    running += count;
-  }
+  scan_places(pairs);
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint k = 0; k < SORT_PAIRS_OF_ITEM; ++k) {
-    const uint place = pairs->places[((keys[k] >> shift) & mask) * GROUP_ITEMS + item]++;
-    pairs->keys[place] = keys[k];
-    pairs->values[place] = values[k];
+    const uint place = places[((keys[k] >> shift) & mask) * GROUP_ITEMS + item]++;
+    ((__local uint*)pairs->keys)[place] = keys[k];
+    ((__local uint*)pairs->values)[place] = values[k];
   }
   barrier(CLK_LOCAL_MEM_FENCE);
 }
@@ -73,13 +102,15 @@ __kernel OF_GROUPS void sort_scatter(const GroupSortParameters p, __global const
                                      __global const uint* values, __global const uint* histograms,
                                      __global uint* sorted_keys, __global uint* sorted_values) {
   __local GroupPairs pairs;
+  __local uint* own_keys = (__local uint*)pairs.keys;
+  __local uint* own_values = (__local uint*)pairs.values;
   const uint item = get_local_id(0), group = get_group_id(0);
   const uint first = group * SORT_STRETCH, count = min((uint)SORT_STRETCH, p.count - first);
   for (uint k = 0; k < SORT_PAIRS_OF_ITEM; ++k) {
     const uint i = k * GROUP_ITEMS + item;
     // Beyond the last pair the largest of keys: they stay at the end.
-    pairs.keys[i] = i < count ? keys[first + i] - p.smallest : ~0u;
-    pairs.values[i] = i < count ? values[first + i] : 0u;
+    own_keys[i] = i < count ? keys[first + i] - p.smallest : ~0u;
+    own_values[i] = i < count ? values[first + i] : 0u;
   }
   pairs.starts[item] = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
@@ -87,8 +118,8 @@ __kernel OF_GROUPS void sort_scatter(const GroupSortParameters p, __global const
   split_pairs(&pairs, p.shift, (1u << low_bits) - 1u);
   if (high_bits > 0) split_pairs(&pairs, p.shift + low_bits, (1u << high_bits) - 1u);
   for (uint k = 0; k < SORT_PAIRS_OF_ITEM; ++k) {
-    const uint i = k * GROUP_ITEMS + item, digit = digit_of(pairs.keys[i], p);
-    if (i > 0 && digit_of(pairs.keys[i - 1], p) != digit) pairs.starts[digit] = i;
+    const uint i = k * GROUP_ITEMS + item, digit = digit_of(own_keys[i], p);
+    if (i > 0 && digit_of(own_keys[i - 1], p) != digit) pairs.starts[digit] = i;
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   // From a place in the group to one in the whole list; it may wrap around.
@@ -98,9 +129,9 @@ __kernel OF_GROUPS void sort_scatter(const GroupSortParameters p, __global const
   for (uint k = 0; k < SORT_PAIRS_OF_ITEM; ++k) {
     const uint i = k * GROUP_ITEMS + item;
     if (i >= count) continue;
-    const uint place = i + pairs.sums[digit_of(pairs.keys[i], p)];
-    sorted_keys[place] = pairs.keys[i];
-    sorted_values[place] = pairs.values[i];
+    const uint place = i + pairs.sums[digit_of(own_keys[i], p)];
+    sorted_keys[place] = own_keys[i];
+    sorted_values[place] = own_values[i];
   }
 }
 
