@@ -144,14 +144,6 @@ static inline int reaches_part(const __local TileSplat* splat, float x, float y,
 #endif
 }
 
-#if LIGHT_ORDERED
-static inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
-  const float flux = 3.15f * fabs(splat->sigma * SIGMA_X(*splat));
-  return max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
-         (splat->sigma < mean_sigma ? min(1.0f, flux) : 1.0f);
-}
-#endif
-
 INLINED void fetch(__local Listed* listed, __global const TileSplat* entries, uint first,
                    uint count, float mean_sigma) {
   const uint item = get_local_id(0), k = item % BATCH;
@@ -166,6 +158,12 @@ INLINED void fetch(__local Listed* listed, __global const TileSplat* entries, ui
 }
 
 #if LIGHT_ORDERED
+static inline float deepest_of(const __local TileSplat* splat, float mean_sigma) {
+  const float flux = 3.15f * fabs(splat->sigma * SIGMA_X(*splat));
+  return max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
+         (splat->sigma < mean_sigma ? min(1.0f, flux) : 1.0f);
+}
+
 INLINED void put_layer(__local BatchLight* light, uint k, const float3 absorption,
                        const float3 emission, float deepest) {
   light->absorption_and_red[k] = (float4)(absorption, emission.x);
