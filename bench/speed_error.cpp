@@ -1,5 +1,6 @@
 // What a frame costs against how far it lies from the reference, at every tolerance. The error
 // is that of the very picture that was timed, over all of its pixels.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -93,6 +94,28 @@ std::vector<SceneToTime> make_scenes(const Size& size) {
           {"universe", "all", universe_frame(make_universe(universe), size.width, size.height)}};
 }
 
+// The largest channel of the median pixel, drawn without absorption.
+double median_light(Frame frame, Renderer& renderer) {
+  set_light(frame, LightPlan::emission);
+  frame.tolerance = 1e-2;
+  const Image image = renderer.render(frame);
+  std::vector<float> light;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4)
+    light.push_back(*std::max_element(&image.pixels[i], &image.pixels[i] + 3));
+  const auto middle = light.begin() + static_cast<std::ptrdiff_t>(light.size() / 2);
+  std::nth_element(light.begin(), middle, light.end());
+  return *middle;
+}
+
+// The scene as bright as pictures are: its median pixel has a fifth of white.
+SceneToTime brightened(SceneToTime scene, Renderer& renderer) {
+  const double factor = 0.2 / median_light(scene.frame, renderer);
+  for (DrawnComponent& component : scene.frame.components)
+    component.brightness *= factor;
+  scene.name = "bright " + scene.name;
+  return scene;
+}
+
 std::string text_of_tolerance(double tolerance) {
   return tolerance > 0 ? "1e" + fixed(std::log10(tolerance), 0) : "0";
 }
@@ -130,6 +153,7 @@ class SpeedAndError {
     summary_.add(cells);
   }
 
+  Renderer& renderer() { return renderer_; }
   const Table& points() const { return points_; }
   const Table& summary() const { return summary_; }
   int point_count() const { return point_count_; }
@@ -180,7 +204,10 @@ void run(const Arguments& arguments) {
   if (arguments.has("quick")) size = {320, 240, 0.1};
   const int runs = arguments.number("runs", 5);
   SpeedAndError results(device, runs, arguments.text("filter", ""));
-  for (const SceneToTime& scene : make_scenes(size)) {
+  std::vector<SceneToTime> scenes = make_scenes(size);
+  for (const SceneToTime& dark : {scenes[2], scenes[3], scenes.back()})
+    scenes.push_back(brightened(dark, results.renderer()));
+  for (const SceneToTime& scene : scenes) {
     for (const LightPlan light :
          {LightPlan::emission, LightPlan::proportional, LightPlan::ordered}) {
       results.add_scene(scene, light);
