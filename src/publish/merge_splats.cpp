@@ -24,11 +24,16 @@ struct Group {
   }
 };
 
-// pi times it is all of its light in a picture, where a length is a pixel, and all that it takes of
-// white light behind it.
+// What hides counts less than what shines: stars are far brighter than white, and with as much
+// weight pictures are three times as far from those of all particles.
+constexpr float weight_of_depth = 0.1F;
+
+// pi times it is all of its light in a picture, where a length is a pixel, and what it takes from
+// light behind it.
 double flux(const LightSplat& splat) {
   const auto& [light, depth] = std::tie(splat.light, splat.depth);
-  return static_cast<double>(light[0] + light[1] + light[2] + depth[0] + depth[1] + depth[2]) *
+  return static_cast<double>(light[0] + light[1] + light[2] +
+                             weight_of_depth * (depth[0] + depth[1] + depth[2])) *
          static_cast<double>(splat.sigma) * static_cast<double>(splat.sigma);
 }
 
