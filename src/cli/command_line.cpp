@@ -173,7 +173,7 @@ void add_publish(CLI::App& app, Run& run, Console& console) {
                   wrapped("What the page is called. Default: the scene's title, or its name"))
       ->type_name("TEXT");
   sub->footer(
-      "Light has to add up: what hides what lies behind it is refused.\n"
+      "In splats for other viewers light has to add up: what hides matter behind it is refused.\n"
       "Examples:\n"
       "  splotchcl publish snapshot_006 -o universe.html --title \"A small universe\"\n"
       "  splotchcl publish snapshot_006 -o universe.ply");

@@ -60,6 +60,23 @@ Image light_of(FrameDrawer& drawer, const Scene& scene, const Frame& frame,
   return std::move(drawn.pictures.front().light);
 }
 
+// Of the splats; where their order counts, one channel after the other.
+Image light_of_splats(FrameDrawer& drawer, const Scene& scene, const Frame& frame,
+                      const SnapshotInfo& snapshot, const PackedSplats& packed) {
+  FinishSettings ignored;
+  const std::vector<LightSplat> splats = unpack(packed);
+  if (!is_ordered(frame))
+    return light_of(drawer, scene, as_on_page(frame, splats), snapshot, ignored);
+  Image light(frame.width, frame.height);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const Image drawn =
+        light_of(drawer, scene, as_on_page(frame, splats, channel), snapshot, ignored);
+    for (std::size_t i = channel; i < light.pixels.size(); i += 4)
+      light.pixels[i] = drawn.pixels[i];
+  }
+  return light;
+}
+
 void measure_difference(const Image& page, const Image& exact, WebPage& of_page) {
   const double white =
       of_page.finish.white.value_or(1) * std::exp2(-of_page.finish.exposure.value_or(0));
@@ -90,9 +107,8 @@ void publish_page(const std::filesystem::path& path, const Scene& scene, const F
                   const SnapshotInfo& snapshot, const PackedSplats& packed, WebPage page,
                   FrameDrawer& drawer, Console& console) {
   console.status("drawing what the page is compared with");
-  FinishSettings ignored;
   const Image exact = light_of(drawer, scene, as_on_page(frame), snapshot, page.finish);
-  const Image shown = light_of(drawer, scene, as_on_page(frame, unpack(packed)), snapshot, ignored);
+  const Image shown = light_of_splats(drawer, scene, frame, snapshot, packed);
   measure_difference(shown, exact, page);
 
   const std::string text = make_web_page(page, frame, packed);
@@ -128,7 +144,7 @@ int run_publish(const PublishOptions& options, Console& console) {
   };
   const Frame frame = load_frame(scene, *source.snapshot, notes, progress);
   console.note_each_once(notes);
-  check_page(frame);
+  is_page ? check_page(frame) : check_splat_file(frame);
 
   console.status(fmt::format("merging {} particles", particle_count(frame)));
   const std::vector<LightSplat> particles = light_splats(frame);

@@ -13,10 +13,16 @@ struct LightSplat {
   std::array<float, 3> place{};  // lengths, relative to an origin
   float sigma = 0;               // lengths, > 0
   std::array<float, 3> light{};  // E w, linear: 1 is a display's white
+  // A w, the optical depth through its center, where the order of splats counts; else 0.
+  std::array<float, 3> depth{};
 };
 
+// Whether the frame's light depends on what lies before what.
+bool is_ordered(const Frame& frame);
+
 // Those of all particles of the frame that are not bad, in its order, relative to its look-at
-// point. What the camera, its limits and what widens splats make of them is left to who draws.
+// point. Where matter absorbs in proportion to what it emits, the light alone says it. What the
+// camera, its limits and what widens splats make of them is left to who draws.
 std::vector<LightSplat> light_splats(const Frame& frame);
 
 // The point that the frame's camera looks at, in lengths.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <tuple>
 #include <utility>
 
 namespace splotchcl {
@@ -23,11 +24,17 @@ struct Group {
   }
 };
 
-// pi times it is all of its light in a picture, where a length is a pixel.
+// What hides counts less than what shines: stars are far brighter than white, and with as much
+// weight pictures are three times as far from those of all particles.
+constexpr float weight_of_depth = 0.1F;
+
+// pi times it is all of its light in a picture, where a length is a pixel, and what it takes from
+// light behind it.
 double flux(const LightSplat& splat) {
-  const auto& light = splat.light;
-  return static_cast<double>(light[0] + light[1] + light[2]) * static_cast<double>(splat.sigma) *
-         static_cast<double>(splat.sigma);
+  const auto& [light, depth] = std::tie(splat.light, splat.depth);
+  return static_cast<double>(light[0] + light[1] + light[2] +
+                             weight_of_depth * (depth[0] + depth[1] + depth[2])) *
+         static_cast<double>(splat.sigma) * static_cast<double>(splat.sigma);
 }
 
 Group group_of(Member begin, Member end) {
@@ -38,7 +45,7 @@ Group group_of(Member begin, Member end) {
     group.merged = *begin;
     return group;
   }
-  double total = 0, sigma2 = 0, sigma4 = 0, mean[3] = {}, light[3] = {}, spread = 0;
+  double total = 0, sigma2 = 0, sigma4 = 0, mean[3] = {}, light[3] = {}, depth[3] = {}, spread = 0;
   std::array<float, 3> lower = begin->place, upper = begin->place;
   for (Member member = begin; member != end; ++member) {
     const double of_member = flux(*member);
@@ -49,6 +56,7 @@ Group group_of(Member begin, Member end) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       mean[axis] += of_member * static_cast<double>(member->place[axis]);
       light[axis] += static_cast<double>(member->light[axis]) * area;
+      depth[axis] += static_cast<double>(member->depth[axis]) * area;
       lower[axis] = std::min(lower[axis], member->place[axis]);
       upper[axis] = std::max(upper[axis], member->place[axis]);
     }
@@ -67,6 +75,7 @@ Group group_of(Member begin, Member end) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     group.merged.place[axis] = static_cast<float>(mean[axis]);
     group.merged.light[axis] = static_cast<float>(light[axis] / all);
+    group.merged.depth[axis] = static_cast<float>(depth[axis] / all);
     if (upper[axis] - lower[axis] > upper[group.widest_axis] - lower[group.widest_axis])
       group.widest_axis = axis;
   }

@@ -8,7 +8,8 @@
 namespace splotchcl {
 
 // At most so many splats in place of all. Each of them has the light of those that it stands for,
-// their center of light and the second moment of their light, taken round. Splats that are split
+// their center of light and the second moment of their light, taken round; what they absorb counts
+// a tenth as much. Splats that are split
 // are those where that loses most of what is shown, by an estimate: the square root of their light,
 // as displays show light nearly, times how much of the width squared is distances between members
 // and differences of their widths. The same for any number of threads.

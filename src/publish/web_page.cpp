@@ -73,6 +73,8 @@ Json finish_of(const WebPage& page) {
 
 Json splats_of(const PackedSplats& splats) {
   return {{"count", splats.count()},
+          {"depths", splats.depths()},
+          {"depth", {splats.least_depth, splats.most_depth}},
           {"lower", splats.lower},
           {"upper", splats.upper},
           {"sigma", {splats.least_sigma, splats.most_sigma}},
@@ -80,13 +82,20 @@ Json splats_of(const PackedSplats& splats) {
 }
 
 std::vector<std::string> about(const WebPage& page, const PackedSplats& splats) {
-  return {fmt::format("{} splats of light stand for {} particles.", splats.count(), page.particles),
-          fmt::format(
-              "Seen from where the page begins, merging and packing them changes the light by "
-              "{:.2g} of white (root mean square), {:.2g} at most, as splotchcl draws both with "
-              "this page's pixels.",
-              page.rms_difference, page.largest_difference),
-          "Each pixel sees a Gaussian half a pixel wide. Clouds around the camera fade."};
+  std::vector<std::string> facts = {
+      fmt::format("{} splats of light stand for {} particles.", splats.count(), page.particles),
+      fmt::format(
+          "Seen from where the page begins, merging and packing them changes the light by "
+          "{:.2g} of white (root mean square), {:.2g} at most, as splotchcl draws both with "
+          "this page's pixels.",
+          page.rms_difference, page.largest_difference),
+      "Each pixel sees a Gaussian half a pixel wide. Clouds around the camera fade."};
+  if (splats.depths() > 0) {
+    facts.emplace_back(
+        "Clouds absorb: they are drawn from the farthest to the nearest, sorted anew when one "
+        "turns.");
+  }
+  return facts;
 }
 
 std::string_view text_of(std::string_view name) {
@@ -121,6 +130,39 @@ std::string inside_script(const Json& json) {
   return text;
 }
 
+// Splats as particles of a component, whose column is a factor over h.
+class SplatComponent {
+ public:
+  explicit SplatComponent(const Frame& frame)
+      : origin_(look_at_point(frame.camera)), width_(static_cast<float>(frame.kernel.width)) {}
+
+  // `column` goes through its center.
+  void add(const LightSplat& splat, float column, const std::array<float, 3>& color) {
+    position_.insert(position_.end(), splat.place.begin(), splat.place.end());
+    color_.insert(color_.end(), color.begin(), color.end());
+    h_.push_back(splat.sigma / width_);
+    weight_.push_back(column * h_.back());
+  }
+  DrawnComponent component() {
+    DrawnComponent component;
+    component.name = "splats";
+    component.particles.count = h_.size();
+    component.particles.origin = origin_;
+    component.particles.position = Column::owning(std::move(position_));
+    component.particles.smoothing_length = Column::owning(std::move(h_));
+    component.particles.color_vector = Column::owning(std::move(color_));
+    component.weight = WeightModel::constant;
+    component.particles.weight = Column::owning(std::move(weight_));
+    component.palette = {"white", {{1, 1, 1}}, {}};
+    return component;
+  }
+
+ private:
+  Vec3 origin_;
+  float width_;
+  std::vector<float> position_, h_, color_, weight_;
+};
+
 // In the places of the page's own text: what is put there may hold anything.
 std::string put(std::string_view page,
                 const std::vector<std::pair<std::string_view, std::string>>& texts) {
@@ -148,11 +190,21 @@ void check_page(const Frame& frame) {
         "publish: found a lens, or light that fades with depth, expected neither: pages have none "
         "(camera.aperture, camera.near_fade and camera.far_fade)");
   }
-  if (find_light_structure(frame).light == LightPlan::ordered) {
+  const bool is_by_depth = frame.sort.by == SortOrder::By::depth && !frame.sort.descending;
+  if (is_ordered(frame) && !is_by_depth) {
     throw UsageError(
-        "publish: found matter whose order along the view counts, expected light that adds up: no "
-        "absorption, or the same in all components as what they emit (component.NAME.absorption = "
-        "\"none\")");
+        "publish: found matter that is sorted by a field, expected by its depth (leave sort.by "
+        "out)");
+  }
+}
+
+void check_splat_file(const Frame& frame) {
+  check_page(frame);
+  if (is_ordered(frame)) {
+    throw UsageError(
+        "publish: found matter whose order along the view counts, expected for files of splats "
+        "light that adds up: no absorption, or the same in all components as what they emit "
+        "(component.NAME.absorption = \"none\"); pages show such matter (--output NAME.html)");
   }
 }
 
@@ -171,28 +223,36 @@ Frame as_on_page(const Frame& frame) {
 
 Frame as_on_page(const Frame& frame, const std::vector<LightSplat>& splats) {
   Frame shown = as_on_page(frame);
-  const auto width = static_cast<float>(frame.kernel.width);
-  std::vector<float> position, h, color;
-  for (const LightSplat& splat : splats) {
-    position.insert(position.end(), splat.place.begin(), splat.place.end());
-    color.insert(color.end(), splat.light.begin(), splat.light.end());
-    h.push_back(splat.sigma / width);
-  }
-  DrawnComponent component;
-  component.name = "splats";
-  component.particles.count = splats.size();
-  component.particles.origin = look_at_point(frame.camera);
-  component.particles.position = Column::owning(std::move(position));
-  component.particles.smoothing_length = Column::owning(h);
-  component.particles.color_vector = Column::owning(std::move(color));
-  // The column is a factor over h.
-  component.weight = WeightModel::constant;
-  component.particles.weight = Column::owning(std::move(h));
-  component.palette = {"white", {{1, 1, 1}}, {}};
+  SplatComponent made(frame);
+  for (const LightSplat& splat : splats)
+    made.add(splat, 1, splat.light);
+  DrawnComponent component = made.component();
   const double source = source_of(frame);
   component.absorption = source > 0 ? Absorption{Absorption::Kind::factor, 1 / source}
                                     : Absorption{Absorption::Kind::none, 0};
   shown.components = {component};
+  return shown;
+}
+
+Frame as_on_page(const Frame& frame, const std::vector<LightSplat>& splats, std::size_t channel) {
+  // Less is nothing, and light over it would be more than a float holds.
+  constexpr float least_depth = 1e-20F;
+  Frame shown = as_on_page(frame);
+  SplatComponent clear(frame), absorbing(frame);
+  for (const LightSplat& splat : splats) {
+    const float light = splat.light[channel], depth = splat.depth[channel];
+    const float source = light / depth;
+    if (depth > least_depth) {
+      absorbing.add(splat, depth, {source, source, source});
+    } else {
+      clear.add(splat, 1, {light, light, light});
+    }
+  }
+  shown.components = {clear.component(), absorbing.component()};
+  shown.components[0].absorption = {Absorption::Kind::none, 0};
+  // As much for all as there is of it.
+  shown.components[1].absorption = {Absorption::Kind::factor, 1};
+  shown.components[1].palette.absorption = {{1, 1, 1}};
   return shown;
 }
 
@@ -207,6 +267,7 @@ std::string make_web_page(const WebPage& page, const Frame& frame, const PackedS
                                      {"{{style}}", file("style.css")},
                                      {"{{settings}}", inside_script(settings)},
                                      {"{{camera}}", file("camera.js")},
+                                     {"{{order}}", file("order.js")},
                                      {"{{picture}}", file("picture.js")},
                                      {"{{page}}", file("page.js")},
                                      {"{{splats}}", as_text(splats)}});

@@ -1,6 +1,3 @@
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include <mutex>
 
 #include "python/bindings.h"
@@ -53,23 +50,23 @@ class Drawer {
   FrameDrawer drawer_;
 };
 
-py::dict describe(const RenderStats& stats) {
-  py::dict stages, serial;
+py::Dict describe(const RenderStats& stats) {
+  py::Dict stages, serial;
   for (const StageTime& stage : stats.stages)
-    stages[py::str(stage.stage)] = stage.seconds;
+    stages.set(stage.stage, stage.seconds);
   for (const StageTime& part : stats.serial)
-    serial[py::str(part.stage)] = part.seconds;
-  py::dict text;
-  text["device"] = stats.device;
-  text["particles"] = stats.particles;
-  text["bad_particles"] = stats.bad_particles;
-  text["drawn_particles"] = stats.drawn_particles;
-  text["tile_entries"] = stats.tile_entries;
-  text["device_bytes"] = stats.device_bytes;
-  text["build_seconds"] = stats.build_seconds;
-  text["total_seconds"] = stats.total_seconds;
-  text["stages"] = stages;
-  text["serial"] = serial;
+    serial.set(part.stage, part.seconds);
+  py::Dict text;
+  text.set("device", stats.device);
+  text.set("particles", stats.particles);
+  text.set("bad_particles", stats.bad_particles);
+  text.set("drawn_particles", stats.drawn_particles);
+  text.set("tile_entries", stats.tile_entries);
+  text.set("device_bytes", stats.device_bytes);
+  text.set("build_seconds", stats.build_seconds);
+  text.set("total_seconds", stats.total_seconds);
+  text.set("stages", stages);
+  text.set("serial", serial);
   return text;
 }
 
@@ -88,43 +85,43 @@ bool has_all_levels(const FinishSettings& finish) {
 
 // Pictures by what tells their files apart, notes, statistics, and the scene with the exposure and
 // the white that the pictures decided, or None where it left none to them.
-py::tuple draw(Drawer& drawer, const Scene& scene, const Source& source, py::object report) {
+py::Object draw(Drawer& drawer, const Scene& scene, const Source& source, py::Object report) {
   const Progress progress(std::move(report));
   DrawnFrame drawn = drawer.draw(scene, source, progress);
   Scene shown = scene;
   if (drawn.finish) shown.finish = *drawn.finish;
-  py::dict pictures;
+  py::Dict pictures;
   for (Picture& picture : drawn.pictures) {
-    pictures[py::str(picture.suffix)] =
-        PictureObject{std::move(picture.image), file_options(shown, drawn.stats, picture.places),
-                      std::move(picture.light)};
+    pictures.set(picture.suffix, PictureObject{std::move(picture.image),
+                                               file_options(shown, drawn.stats, picture.places),
+                                               std::move(picture.light)});
   }
   const bool is_decided = !has_all_levels(scene.finish) && has_all_levels(shown.finish);
   return py::make_tuple(pictures, drawn.all_notes(), describe(drawn.stats),
-                        is_decided ? py::cast(shown) : py::none());
+                        is_decided ? py::to(shown) : py::none());
 }
 
-py::dict describe(const DeviceInfo& device) {
-  py::dict text;
-  text["name"] = device.name;
-  text["platform"] = device.platform;
-  text["driver"] = device.driver;
-  text["is_gpu"] = device.is_gpu;
-  text["compute_units"] = device.compute_units;
-  text["memory_bytes"] = device.memory_bytes;
-  text["is_default"] = device.is_default;
+py::Dict describe(const DeviceInfo& device) {
+  py::Dict text;
+  text.set("name", device.name);
+  text.set("platform", device.platform);
+  text.set("driver", device.driver);
+  text.set("is_gpu", device.is_gpu);
+  text.set("compute_units", device.compute_units);
+  text.set("memory_bytes", device.memory_bytes);
+  text.set("is_default", device.is_default);
   return text;
 }
 
 }  // namespace
 
-void bind_drawing(py::module_& module) {
-  py::class_<Drawer>(module, "Drawer")
-      .def(py::init<const std::string&, bool, bool>())
-      .def("draw", &draw);
+void bind_drawing(py::Module& module) {
+  py::Class<Drawer>(module, "splotchcl._core.Drawer")
+      .init<std::string, bool, bool>()
+      .def("draw", py::function<&draw>);
   module.def("devices", [] {
     const std::vector<DeviceInfo> devices = without_python([] { return list_devices(); });
-    std::vector<py::dict> texts;
+    std::vector<py::Dict> texts;
     for (const DeviceInfo& device : devices)
       texts.push_back(describe(device));
     return texts;
@@ -148,10 +145,10 @@ const char* name_of(FilmState state) {
 }
 
 // The film's state, its number of frames, and notes.
-py::tuple make(const std::filesystem::path& scene, const std::filesystem::path& output,
-               const std::vector<std::string>& settings, const std::string& device,
-               bool by_reference, const std::string& frames, const std::string& part,
-               py::object report_to) {
+py::Object make(const std::filesystem::path& scene, const std::filesystem::path& output,
+                const std::vector<std::string>& settings, const std::string& device,
+                bool by_reference, const std::string& frames, const std::string& part,
+                py::Object report_to) {
   const Progress progress(std::move(report_to));
   std::vector<std::string> notes;
   FilmOptions options;
@@ -174,8 +171,8 @@ py::tuple make(const std::filesystem::path& scene, const std::filesystem::path& 
 
 }  // namespace
 
-void bind_films(py::module_& module) {
-  module.def("make_film", &make);
+void bind_films(py::Module& module) {
+  module.def("make_film", py::function<&make>);
 }
 
 }  // namespace splotchcl::python

@@ -1,6 +1,3 @@
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include <functional>
 #include <map>
 
@@ -14,12 +11,13 @@
 namespace splotchcl::python {
 namespace {
 
-using Set = std::function<void(GalaxySettings&, const py::handle&)>;
+using Given = std::map<std::string, py::Object>;
+using Set = std::function<void(GalaxySettings&, PyObject*)>;
 
 template <typename Value>
 Set member(Value GalaxySettings::*value) {
-  return [value](GalaxySettings& settings, const py::handle& given) {
-    settings.*value = given.cast<Value>();
+  return [value](GalaxySettings& settings, PyObject* given) {
+    settings.*value = py::from<Value>(given);
   };
 }
 
@@ -58,16 +56,15 @@ const std::map<std::string, Set>& settings_by_name() {
   return known;
 }
 
-GalaxySettings settings_of(const py::dict& given) {
+GalaxySettings settings_of(const Given& given) {
   GalaxySettings settings;
-  for (const auto& [key, value] : given) {
-    const auto name = key.cast<std::string>();
+  for (const auto& [name, value] : given) {
     const auto found = settings_by_name().find(name);
     if (found == settings_by_name().end()) throw UsageError("galaxy: there is no " + name);
     try {
-      found->second(settings, value);
-    } catch (const py::cast_error&) {
-      throw UsageError("galaxy: " + name + ": found " + py::repr(value).cast<std::string>() +
+      found->second(settings, value.get());
+    } catch (const py::CastError&) {
+      throw UsageError("galaxy: " + name + ": found " + py::repr(value.get()) +
                        ", expected a value as its default");
     }
   }
@@ -76,7 +73,7 @@ GalaxySettings settings_of(const py::dict& given) {
 
 // As the command does it, the file's checks included.
 void make_file(const std::filesystem::path& picture, const std::filesystem::path& output,
-               const py::dict& given, std::optional<double> gamma, double speed, double core,
+               const Given& given, std::optional<double> gamma, double speed, double core,
                const std::optional<std::filesystem::path>& rotation_curve) {
   GalaxySettings settings = settings_of(given);
   without_python([&] {
@@ -94,8 +91,8 @@ void make_file(const std::filesystem::path& picture, const std::filesystem::path
 
 }  // namespace
 
-void bind_galaxy(py::module_& module) {
-  module.def("make_galaxy_file", &make_file);
+void bind_galaxy(py::Module& module) {
+  module.def("make_galaxy_file", py::function<&make_file>);
 }
 
 }  // namespace splotchcl::python

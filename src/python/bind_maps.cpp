@@ -1,10 +1,8 @@
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include <mutex>
 
 #include "map/shape.h"
 #include "python/bindings.h"
+#include "python/interface/arrays.h"
 #include "python/progress.h"
 #include "python/source.h"
 #include "splotchcl/map.h"
@@ -17,33 +15,19 @@ namespace splotchcl::python {
 namespace {
 
 // Lowest row first, as files of maps have it: the view turns rows around and copies nothing.
-py::buffer_info buffer_of(const Map& map, const std::vector<float>& values) {
-  constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
-  const auto width = static_cast<py::ssize_t>(map.width);
-  const auto height = static_cast<py::ssize_t>(map.height);
-  constexpr bool is_read_only = true;
-  float* const last_row = const_cast<float*>(values.data()) + (height - 1) * width;
+py::ArrayLayout layout_of(const Map& map, const std::vector<float>& values) {
+  constexpr std::int64_t size = sizeof(float);
+  const std::int64_t width = map.width, height = map.height;
+  const float* const last_row = values.data() + (height - 1) * width;
   if (map.shape == MapShape::healpix || map.shape == MapShape::profile) {
-    return {last_row, size,        py::format_descriptor<float>::format(), 1, {width},
-            {size},   is_read_only};
+    return {last_row, "f4", {width}};
   }
   if ((map.velocity || map.shape == MapShape::voxels) && &values == &map.values) {
-    const py::ssize_t channels = map.planes();
-    return {last_row,
-            size,
-            py::format_descriptor<float>::format(),
-            3,
-            {channels, height, width},
-            {size * width * height, -size * width, size},
-            is_read_only};
+    const std::int64_t channels = map.planes();
+    return {
+        last_row, "f4", {channels, height, width}, {size * width * height, -size * width, size}};
   }
-  return {last_row,
-          size,
-          py::format_descriptor<float>::format(),
-          2,
-          {height, width},
-          {-size * width, size},
-          is_read_only};
+  return {last_row, "f4", {height, width}, {-size * width, size}};
 }
 
 // The effective numbers of particles of a map.
@@ -90,7 +74,7 @@ class MapDrawer {
       : by_reference_(by_reference), certify_(certify), device_(std::move(device)) {}
 
   // A map, and notes.
-  py::tuple draw(const Scene& scene, const Source& source, py::object report) {
+  py::Object draw(const Scene& scene, const Source& source, py::Object report) {
     const Progress progress(std::move(report));
     std::vector<std::string> notes;
     auto map = std::make_shared<Map>(without_python([&] {
@@ -173,44 +157,44 @@ std::vector<std::string> write(const Map& map, const std::filesystem::path& path
 
 }  // namespace
 
-void bind_maps(py::module_& module) {
-  py::class_<Noise>(module, "Noise", py::buffer_protocol()).def_buffer([](const Noise& noise) {
-    return buffer_of(*noise.map, noise.map->effective_particles);
-  });
-  py::class_<Map, std::shared_ptr<Map>>(module, "Map", py::buffer_protocol())
-      .def_buffer([](const Map& map) { return buffer_of(map, map.values); })
-      .def_property_readonly("noise",
-                             [](const std::shared_ptr<Map>& map) -> std::optional<Noise> {
-                               if (map->effective_particles.empty()) return std::nullopt;
-                               return Noise{map};
-                             })
-      .def_property_readonly("shape", [](const Map& map) { return name_of(map.shape); })
-      .def_property_readonly("axes", &axes_of)
-      .def_readonly("width", &Map::width)
-      .def_readonly("height", &Map::height)
-      .def_readonly("quantity", &Map::quantity)
-      .def_readonly("unit", &Map::unit)
-      .def_readonly("length_unit", &Map::length_unit)
-      .def_readonly("right_name", &Map::right_name)
-      .def_readonly("up_name", &Map::up_name)
-      .def_readonly("pixel", &Map::pixel)
-      .def_property_readonly(
-          "velocity",
-          [](const Map& map) -> std::optional<std::tuple<int, double, double, std::string>> {
-            if (!map.velocity) return std::nullopt;
-            const VelocityAxis& axis = *map.velocity;
-            return std::make_tuple(axis.channels, axis.first, axis.step, axis.unit);
-          })
-      .def_readonly("center_right", &Map::center_right)
-      .def_readonly("center_up", &Map::center_up)
-      .def_readonly("tolerance", &Map::tolerance)
-      .def_readonly("particles", &Map::particles)
-      .def_readonly("bad_particles", &Map::bad_particles)
-      .def("save", &write);
-  py::class_<MapDrawer>(module, "MapDrawer")
-      .def(py::init<std::string, bool, bool>())
-      .def("draw", &MapDrawer::draw);
-  module.def("read_map_length", &read_length);
+void bind_maps(py::Module& module) {
+  py::Class<Noise>(module, "splotchcl._core.Noise")
+      .property("__array_interface__", [](const Noise& noise) {
+        return layout_of(*noise.map, noise.map->effective_particles);
+      });
+  py::Class<Map>(module, "splotchcl._core.Map")
+      .property("__array_interface__", [](const Map& map) { return layout_of(map, map.values); })
+      .property("noise",
+                [](const std::shared_ptr<Map>& map) -> std::optional<Noise> {
+                  if (map->effective_particles.empty()) return std::nullopt;
+                  return Noise{map};
+                })
+      .property("shape", [](const Map& map) { return name_of(map.shape); })
+      .property("axes", py::function<&axes_of>)
+      .property("width", py::variable<&Map::width>)
+      .property("height", py::variable<&Map::height>)
+      .property("quantity", py::variable<&Map::quantity>)
+      .property("unit", py::variable<&Map::unit>)
+      .property("length_unit", py::variable<&Map::length_unit>)
+      .property("right_name", py::variable<&Map::right_name>)
+      .property("up_name", py::variable<&Map::up_name>)
+      .property("pixel", py::variable<&Map::pixel>)
+      .property("velocity",
+                [](const Map& map) -> std::optional<std::tuple<int, double, double, std::string>> {
+                  if (!map.velocity) return std::nullopt;
+                  const VelocityAxis& axis = *map.velocity;
+                  return std::make_tuple(axis.channels, axis.first, axis.step, axis.unit);
+                })
+      .property("center_right", py::variable<&Map::center_right>)
+      .property("center_up", py::variable<&Map::center_up>)
+      .property("tolerance", py::variable<&Map::tolerance>)
+      .property("particles", py::variable<&Map::particles>)
+      .property("bad_particles", py::variable<&Map::bad_particles>)
+      .def("save", py::function<&write>);
+  py::Class<MapDrawer>(module, "splotchcl._core.MapDrawer")
+      .init<std::string, bool, bool>()
+      .def("draw", py::function<&MapDrawer::draw>);
+  module.def("read_map_length", py::function<&read_length>);
 }
 
 }  // namespace splotchcl::python

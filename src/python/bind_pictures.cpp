@@ -1,12 +1,10 @@
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "image/png_file.h"
 #include "python/bindings.h"
+#include "python/interface/arrays.h"
 #include "python/progress.h"
 #include "splotchcl/compare.h"
 #include "splotchcl/frame_drawer.h"
@@ -15,23 +13,14 @@
 namespace splotchcl::python {
 namespace {
 
-py::buffer_info buffer_of_picture(const PictureObject& picture) {
-  constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
+py::ArrayLayout layout_of(const PictureObject& picture) {
   const Image& linear = picture.linear();
-  const auto width = static_cast<py::ssize_t>(linear.width);
-  const auto height = static_cast<py::ssize_t>(linear.height);
-  constexpr bool is_read_only = true;
-  return {const_cast<float*>(linear.pixels.data()),  // read-only all the same
-          size,
-          py::format_descriptor<float>::format(),
-          3,
-          {height, width, py::ssize_t{4}},
-          {4 * size * width, 4 * size, size},
-          is_read_only};
+  return {linear.pixels.data(), "f4", {linear.height, linear.width, 4}};
 }
 
-py::bytes bytes_of(const std::vector<std::uint8_t>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+py::Object bytes_of(const std::vector<std::uint8_t>& bytes) {
+  return py::Object::owning(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(bytes.data()),
+                                                      static_cast<Py_ssize_t>(bytes.size())));
 }
 
 std::vector<std::uint8_t> display(const PictureObject& picture) {
@@ -47,19 +36,19 @@ std::vector<std::uint8_t> png(const PictureObject& picture) {
   return encode_png(name, width, height, display(picture));
 }
 
-py::dict compare(const PictureObject& picture, const PictureObject& reference, double limit) {
+py::Dict compare(const PictureObject& picture, const PictureObject& reference, double limit) {
   const ImageDifference difference =
       without_python([&] { return compare_images(picture.linear(), reference.linear(), limit); });
-  py::dict result;
-  result["worst"] = difference.worst;
-  result["worst_pixel"] = py::make_tuple(difference.worst_x, difference.worst_y);
-  result["worst_channel"] = difference.worst_channel;
-  result["maximum"] = difference.overall.maximum;
-  result["rms"] = difference.overall.rms;
-  result["psnr"] = difference.overall.psnr;
-  result["relative_l2"] = difference.overall.relative_l2;
-  result["pixels_beyond"] = difference.pixels_beyond;
-  result["pixels_not_finite"] = difference.pixels_not_finite;
+  py::Dict result;
+  result.set("worst", difference.worst);
+  result.set("worst_pixel", py::make_tuple(difference.worst_x, difference.worst_y));
+  result.set("worst_channel", difference.worst_channel);
+  result.set("maximum", difference.overall.maximum);
+  result.set("rms", difference.overall.rms);
+  result.set("psnr", difference.overall.psnr);
+  result.set("relative_l2", difference.overall.relative_l2);
+  result.set("pixels_beyond", difference.pixels_beyond);
+  result.set("pixels_not_finite", difference.pixels_not_finite);
   return result;
 }
 
@@ -90,11 +79,11 @@ std::vector<std::array<double, 3>> palette_colors(const std::string& name, doubl
 
 }  // namespace
 
-void bind_pictures(py::module_& module) {
-  py::class_<PictureObject>(module, "Picture", py::buffer_protocol())
-      .def_buffer(&buffer_of_picture)
-      .def_property_readonly("width", [](const PictureObject& p) { return p.image.width; })
-      .def_property_readonly("height", [](const PictureObject& p) { return p.image.height; })
+void bind_pictures(py::Module& module) {
+  py::Class<PictureObject>(module, "splotchcl._core.Picture")
+      .property("__array_interface__", [](const PictureObject& p) { return layout_of(p); })
+      .property("width", [](const PictureObject& p) { return p.image.width; })
+      .property("height", [](const PictureObject& p) { return p.image.height; })
       .def("display",
            [](const PictureObject& p) {
              return bytes_of(without_python([&] { return display(p); }));
@@ -103,11 +92,11 @@ void bind_pictures(py::module_& module) {
            [](const PictureObject& p) { return bytes_of(without_python([&] { return png(p); })); })
       .def("save", [](const PictureObject& p, const std::filesystem::path& path,
                       bool display) { without_python([&] { save(p, path, display); }); })
-      .def("compare", &compare);
+      .def("compare", py::function<&compare>);
   module.def("read_image", [](const std::filesystem::path& path) {
     return without_python([&] { return PictureObject{read_image(path), {}}; });
   });
-  module.def("palette_colors", &palette_colors);
+  module.def("palette_colors", py::function<&palette_colors>);
 }
 
 }  // namespace splotchcl::python

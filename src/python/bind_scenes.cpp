@@ -1,6 +1,3 @@
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include <mutex>
 
 #include "film/follow/find_followed.h"
@@ -34,7 +31,7 @@ Scene with_absolute_names(Scene scene) {
   return scene;
 }
 
-py::tuple open(const std::filesystem::path& path, const Settings& settings) {
+py::Object open(const std::filesystem::path& path, const Settings& settings) {
   SceneWithSnapshot opened = without_python([&] { return open_scene(path, settings); });
   return py::make_tuple(std::move(opened.scene), std::make_shared<Source>(opened.snapshot),
                         std::move(opened.notes), std::move(opened.suggested));
@@ -58,12 +55,12 @@ std::shared_ptr<const Snapshot> not_owned(const Snapshot& snapshot) {
   return {std::shared_ptr<const Snapshot>(), &snapshot};
 }
 
-py::tuple as_tuple(SceneWithSnapshot opened) {
+py::Object as_tuple(SceneWithSnapshot opened) {
   return py::make_tuple(std::move(opened.scene), std::move(opened.notes),
                         std::move(opened.suggested));
 }
 
-py::tuple decide_scene(const Scene& scene, const Source& source, py::object report) {
+py::Object decide_scene(const Scene& scene, const Source& source, py::Object report) {
   const Progress progress(std::move(report));
   Notes notes;
   Scene fixed = in_turn(source, [&] {
@@ -82,11 +79,11 @@ std::vector<Scene> scenes_of_path(const Scene& scene) {
   return scenes;
 }
 
-void bind_scene(py::module_& module) {
-  py::class_<Scene>(module, "Scene")
-      .def("with_settings", &with_settings, py::arg("settings"), py::arg("suggested") = nullptr)
-      .def("to_toml", &format_scene)
-      .def("with_absolute_names", &with_absolute_names)
+void bind_scene(py::Module& module) {
+  py::Class<Scene>(module, "splotchcl._core.Scene")
+      .def("with_settings", py::function<&with_settings>)
+      .def("to_toml", py::function<&format_scene>)
+      .def("with_absolute_names", py::function<&with_absolute_names>)
       .def("frames",
            [](const Scene& scene) { return without_python([&] { return scenes_of_path(scene); }); })
       .def("component_names",
@@ -96,18 +93,18 @@ void bind_scene(py::module_& module) {
                names.push_back(component.name);
              return names;
            })
-      .def_property_readonly("gamma", [](const Scene& scene) { return scene.image.gamma; })
-      .def_property_readonly("size", [](const Scene& scene) {
+      .property("gamma", [](const Scene& scene) { return scene.image.gamma; })
+      .property("size", [](const Scene& scene) {
         return std::make_pair(scene.image.width, scene.image.height);
       });
 }
 
 }  // namespace
 
-void bind_scenes(py::module_& module) {
+void bind_scenes(py::Module& module) {
   bind_scene(module);
-  module.def("open_scene", &open);
-  module.def("scene_keys", &scene_file::key_names);
+  module.def("open_scene", py::function<&open>);
+  module.def("scene_keys", py::function<&scene_file::key_names>);
   module.def("read_scene", [](const std::filesystem::path& path, const Settings& settings) {
     return read_scene_file(path, settings);
   });
@@ -131,11 +128,11 @@ void bind_scenes(py::module_& module) {
       return show_scene(std::move(opened), settings);
     }));
   });
-  module.def("may_be_formula", &Formula::may_be);
+  module.def("may_be_formula", py::function<&Formula::may_be>);
   module.def("tell_not_drawn", [](const Scene& scene, const Source& source) {
     return in_turn(source, [&] { return tell_not_drawn(scene, source.snapshot()); });
   });
-  module.def("decide", &decide_scene);
+  module.def("decide", py::function<&decide_scene>);
 }
 
 }  // namespace splotchcl::python

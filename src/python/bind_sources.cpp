@@ -1,6 +1,3 @@
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
-
 #include <mutex>
 #include <optional>
 
@@ -23,25 +20,14 @@ namespace {
 // Values of one field, which numpy takes as they lie.
 struct Values {
   Column column;
-  py::ssize_t count = 0;
-  py::ssize_t width = 1;
+  std::int64_t count = 0;
+  std::int64_t width = 1;
 };
 
-py::buffer_info buffer_of(const Values& values) {
-  constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
-  std::vector<py::ssize_t> shape = {values.count}, strides = {size * values.width};
-  if (values.width > 1) {
-    shape.push_back(values.width);
-    strides.push_back(size);
-  }
-  constexpr bool is_read_only = true;
-  return {const_cast<float*>(values.column.data()),  // read-only all the same
-          size,
-          py::format_descriptor<float>::format(),
-          static_cast<py::ssize_t>(shape.size()),
-          shape,
-          strides,
-          is_read_only};
+py::ArrayLayout layout_of(const Values& values) {
+  py::ArrayLayout layout = {values.column.data(), "f4", {values.count}};
+  if (values.width > 1) layout.shape.push_back(values.width);
+  return layout;
 }
 
 Column as_array(const Column& column, std::uint64_t values) {
@@ -53,7 +39,7 @@ Values read_field(const Source& source, int type, const std::string& name) {
   const Snapshot& snapshot = source.snapshot();
   const ParticleTypeInfo& info = require_type(snapshot.info(), type);
   Values values;
-  values.count = static_cast<py::ssize_t>(info.count);
+  values.count = static_cast<std::int64_t>(info.count);
   const FieldInfo* const stored = find_field(info, name);
   if (stored != nullptr && !stored->file_name.empty()) {
     values.width = stored->values_per_particle;
@@ -74,10 +60,8 @@ struct Integers {
   std::vector<std::uint64_t> values;
 };
 
-py::buffer_info buffer_of(const Integers& integers) {
-  constexpr bool is_read_only = true;
-  return {const_cast<std::uint64_t*>(integers.values.data()),  // read-only all the same
-          static_cast<py::ssize_t>(integers.values.size()), is_read_only};
+py::ArrayLayout layout_of(const Integers& integers) {
+  return {integers.values.data(), "u8", {static_cast<std::int64_t>(integers.values.size())}};
 }
 
 Integers read_integers(const Snapshot& snapshot, int type, const std::string& name) {
@@ -87,54 +71,54 @@ Integers read_integers(const Snapshot& snapshot, int type, const std::string& na
 }
 
 // Names in files may have any bytes.
-py::str readable(const std::string& text) {
-  return py::reinterpret_steal<py::str>(
-      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace"));
+py::Object readable(const std::string& text) {
+  return py::text_of(text, "replace");
 }
 
-py::list readable(const std::vector<std::string>& texts) {
-  py::list list;
+std::vector<py::Object> readable(const std::vector<std::string>& texts) {
+  std::vector<py::Object> objects;
   for (const std::string& text : texts)
-    list.append(readable(text));
-  return list;
+    objects.push_back(readable(text));
+  return objects;
 }
 
-py::dict describe(const ParticleTypeInfo& type) {
-  py::dict fields;
+py::Dict describe(const ParticleTypeInfo& type) {
+  py::Dict fields;
   for (const FieldInfo& field : type.fields) {
-    fields[readable(field.name)] =
-        py::make_tuple(readable(field.file_name), field.values_per_particle, readable(field.unit));
+    fields.set(
+        readable(field.name),
+        py::make_tuple(readable(field.file_name), field.values_per_particle, readable(field.unit)));
   }
-  py::dict text;
-  text["type"] = type.type;
-  text["count"] = type.count;
-  text["mass"] = type.table_mass;
-  text["fields"] = fields;
-  text["derived"] = derivable_fields(type);
+  py::Dict text;
+  text.set("type", type.type);
+  text.set("count", type.count);
+  text.set("mass", type.table_mass);
+  text.set("fields", fields);
+  text.set("derived", derivable_fields(type));
   return text;
 }
 
 // A number for a cube, else three.
-py::object describe(const std::optional<BoxSides>& box) {
+py::Object describe(const std::optional<BoxSides>& box) {
   if (!box) return py::none();
-  if (box->is_cube()) return py::float_((*box)[0]);
+  if (box->is_cube()) return py::to((*box)[0]);
   return py::make_tuple((*box)[0], (*box)[1], (*box)[2]);
 }
 
-py::dict describe(const Source& source) {
+py::Dict describe(const Source& source) {
   const SnapshotInfo& info = source.snapshot().info();
-  py::dict types;
+  py::Dict types;
   for (const ParticleTypeInfo& type : info.types)
-    types[py::str(particle_type_name(type.type))] = describe(type);
-  py::dict text;
-  text["format"] = info.format;
-  text["files"] = info.files;
-  text["time"] = info.time;
-  text["redshift"] = info.redshift;
-  text["box_size"] = describe(info.box_size);
-  text["hubble_parameter"] = info.hubble_parameter;
-  text["notes"] = readable(info.notes);
-  text["types"] = types;
+    types.set(particle_type_name(type.type), describe(type));
+  py::Dict text;
+  text.set("format", info.format);
+  text.set("files", info.files);
+  text.set("time", info.time);
+  text.set("redshift", info.redshift);
+  text.set("box_size", describe(info.box_size));
+  text.set("hubble_parameter", info.hubble_parameter);
+  text.set("notes", readable(info.notes));
+  text.set("types", types);
   return text;
 }
 
@@ -157,26 +141,26 @@ Vec3 vector_of(const std::array<double, 3>& values) {
   return {{values[0], values[1], values[2]}};
 }
 
-void bind_values(py::module_& module) {
-  py::class_<Values>(module, "Values", py::buffer_protocol()).def_buffer([](const Values& values) {
-    return buffer_of(values);
-  });
-  py::class_<Integers>(module, "Integers", py::buffer_protocol())
-      .def_buffer([](const Integers& integers) { return buffer_of(integers); });
+void bind_values(py::Module& module) {
+  py::Class<Values>(module, "splotchcl._core.Values")
+      .property("__array_interface__", [](const Values& values) { return layout_of(values); });
+  py::Class<Integers>(module, "splotchcl._core.Integers")
+      .property("__array_interface__",
+                [](const Integers& integers) { return layout_of(integers); });
 }
 
-void bind_particles(py::module_& module) {
-  py::class_<ParticleArrays, Source, std::shared_ptr<ParticleArrays>>(module, "ParticleArrays")
-      .def(py::init<>())
-      .def("set_field", &ParticleArrays::set_field)
-      .def("set_mass", &ParticleArrays::set_mass)
-      .def("clear", &ParticleArrays::clear)
+void bind_particles(py::Module& module) {
+  py::Class<ParticleArrays>(module, "splotchcl._core.ParticleArrays")
+      .init<>()
+      .def("set_field", py::function<&ParticleArrays::set_field>)
+      .def("set_mass", py::function<&ParticleArrays::set_mass>)
+      .def("clear", py::function<&ParticleArrays::clear>)
       .def("set_box_size",
            [](ParticleArrays& particles, const std::array<double, 3>& sides) {
              particles.set_box_size(vector_of(sides));
            })
-      .def("set_time", &ParticleArrays::set_time)
-      .def("set_scale_factor", &ParticleArrays::set_scale_factor)
+      .def("set_time", py::function<&ParticleArrays::set_time>)
+      .def("set_scale_factor", py::function<&ParticleArrays::set_scale_factor>)
       .def("set_origin", [](ParticleArrays& particles, const std::array<double, 3>& origin) {
         particles.set_origin(vector_of(origin));
       });
@@ -184,9 +168,9 @@ void bind_particles(py::module_& module) {
 
 }  // namespace
 
-void bind_sources(py::module_& module) {
+void bind_sources(py::Module& module) {
   bind_values(module);
-  py::class_<Source, std::shared_ptr<Source>>(module, "Source")
+  py::Class<Source>(module, "splotchcl._core.Source")
       .def("describe",
            [](const Source& source) {
              // Arrays may be set meanwhile.
@@ -231,7 +215,7 @@ void bind_sources(py::module_& module) {
                  return std::make_shared<Source>(open_snapshot_for(path, read_settings(settings)));
                });
              });
-  module.def("is_unit", &is_unit);
+  module.def("is_unit", py::function<&is_unit>);
   module.def("ratio_of_units",
              [](const std::string& from, const std::string& to, const Source& source) {
                return without_python([&] {
@@ -240,9 +224,9 @@ void bind_sources(py::module_& module) {
                  });
                });
              });
-  module.def("canonical_field_name", &canonical_field_name);
-  module.def("find_particle_type", &find_particle_type);
-  module.def("particle_type_name", &particle_type_name);
+  module.def("canonical_field_name", py::function<&canonical_field_name>);
+  module.def("find_particle_type", py::function<&find_particle_type>);
+  module.def("particle_type_name", py::function<&particle_type_name>);
 }
 
 }  // namespace splotchcl::python

@@ -1,23 +1,22 @@
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <map>
 #include <string>
 
+#include "python/interface/classes.h"
 #include "splotchcl/image.h"
 #include "splotchcl/image_file.h"
 
 namespace splotchcl::python {
 
 // Adds Scene and what makes scenes to the module.
-void bind_scenes(pybind11::module_& module);
+void bind_scenes(py::Module& module);
 
 // Adds Drawer, maps, films, galaxies and the list of devices to the module.
-void bind_drawing(pybind11::module_& module);
-void bind_maps(pybind11::module_& module);
-void bind_films(pybind11::module_& module);
-void bind_galaxy(pybind11::module_& module);
+void bind_drawing(py::Module& module);
+void bind_maps(py::Module& module);
+void bind_films(py::Module& module);
+void bind_galaxy(py::Module& module);
 
 // A picture and how it is stored.
 struct PictureObject {
@@ -29,6 +28,6 @@ struct PictureObject {
 };
 
 // Adds Picture to the module.
-void bind_pictures(pybind11::module_& module);
+void bind_pictures(py::Module& module);
 
 }  // namespace splotchcl::python

@@ -1,73 +1,30 @@
-#include <pybind11/pybind11.h>
-
-#include <algorithm>
-#include <string>
-
+#include "common/shrink_guard.h"
 #include "python/bindings.h"
+#include "python/interface/errors.h"
 #include "python/progress.h"
 #include "python/source.h"
-#include "splotchcl/error.h"
 
 // The module splotchcl._core: the library's values and functions as they are. What users call is
 // written in Python around it.
 namespace splotchcl::python {
 namespace {
 
-constexpr const char* module_name = "splotchcl._core";
-
-py::object new_error(const char* name, const py::handle& bases) {
-  const std::string full_name = std::string(module_name) + "." + name;
-  return py::reinterpret_steal<py::object>(
-      PyErr_NewException(full_name.c_str(), bases.ptr(), nullptr));
+// Of os, whose arguments have names.
+void register_at_fork(const py::Object& in_child) {
+  const py::Object function = py::import_module("os").attribute("register_at_fork");
+  const py::Object none_placed = py::tuple_of({});
+  py::Dict named;
+  named.set("after_in_child", in_child);
+  py::Object::owning(PyObject_Call(function.get(), none_placed.get(), named.object().get()));
 }
 
-// Each is an Error of the library and one of Python's own kind.
-void add_errors(py::module_& module) {
-  const py::object error = new_error("Error", py::handle(PyExc_Exception));
-  const auto add = [&](const char* name, PyObject* kind) {
-    module.attr(name) = new_error(name, py::make_tuple(error, py::handle(kind)));
-  };
-  module.attr("Error") = error;
-  add("UsageError", PyExc_ValueError);
-  add("DataError", PyExc_OSError);
-  add("DeviceError", PyExc_RuntimeError);
-}
-
-// What a compiler says has several lines. Names of files that are no UTF-8 are what Python makes of
-// them.
-void raise(const char* name, const Error& error) {
-  std::string message = error.what();
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  const py::object kind = py::module_::import(module_name).attr(name);
-  const py::object text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
-      message.data(), static_cast<Py_ssize_t>(message.size()), "surrogateescape"));
-  if (text) PyErr_SetObject(kind.ptr(), text.ptr());
-}
-
-void translate(std::exception_ptr thrown) {
-  try {
-    if (thrown) std::rethrow_exception(thrown);
-  } catch (const UsageError& error) {
-    raise("UsageError", error);
-  } catch (const DataError& error) {
-    raise("DataError", error);
-  } catch (const DeviceError& error) {
-    raise("DeviceError", error);
-  } catch (const Error& error) {
-    raise("Error", error);
-  }
-}
-
-}  // namespace
-
-PYBIND11_MODULE(_core, module) {
-  module.attr("version") = SPLOTCHCL_VERSION;
-  add_errors(module);
-  py::register_exception_translator(&translate);
+void fill(py::Module& module) {
+  module.object().set_attribute("version", py::to(SPLOTCHCL_VERSION));
+  py::add_errors(module);
   survive_cut_files();
-  py::module_::import("atexit").attr("register")(py::cpp_function(&end_other_work));
-  py::module_::import("os").attr("register_at_fork")(py::arg("after_in_child") =
-                                                         py::cpp_function(&forget_other_work));
+  const py::Object at_exit = py::import_module("atexit").attribute("register");
+  py::call(at_exit, {py::function_object("end_other_work", py::function<&end_other_work>)});
+  register_at_fork(py::function_object("forget_other_work", py::function<&forget_other_work>));
   bind_sources(module);
   bind_scenes(module);
   bind_pictures(module);
@@ -77,4 +34,18 @@ PYBIND11_MODULE(_core, module) {
   bind_galaxy(module);
 }
 
+PyModuleDef definition = {
+    PyModuleDef_HEAD_INIT, "_core", nullptr, -1, nullptr, nullptr, nullptr, nullptr, nullptr};
+
+}  // namespace
 }  // namespace splotchcl::python
+
+PyMODINIT_FUNC PyInit__core() {
+  namespace py = splotchcl::py;
+  return py::guarded([] {
+    py::Object object = py::Object::owning(PyModule_Create(&splotchcl::python::definition));
+    py::Module module(object);
+    splotchcl::python::fill(module);
+    return object.release();
+  });
+}

@@ -72,9 +72,9 @@ std::function<void(const std::string&, double)> Progress::function() const {
 void Progress::operator()(const std::string& what, double fraction) const {
   if (is_to_end()) throw DataError("Python ends");
   survive_cut_files();
-  const py::gil_scoped_acquire lock;
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (!callable_.is_none()) callable_(what, fraction);
+  const py::Lock lock;
+  py::require(PyErr_CheckSignals() == 0);
+  if (!callable_.is_none()) py::call(callable_, {py::to(what), py::to(fraction)});
 }
 
 }  // namespace splotchcl::python

@@ -1,17 +1,14 @@
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <type_traits>
 
 #include "common/shrink_guard.h"
+#include "python/interface/casts.h"
 
 namespace splotchcl::python {
-
-namespace py = pybind11;
 
 // While it lives, other threads of Python go on. Where Python ends meanwhile, its thread never
 // comes back: Python's end would go through frames of C++ and abort the program, and what the
@@ -54,13 +51,13 @@ auto without_python(Work&& work) {
 // raises, and an interruption from the keyboard, end the work.
 class Progress {
  public:
-  explicit Progress(py::object callable) : callable_(std::move(callable)) {}
+  explicit Progress(py::Object callable) : callable_(std::move(callable)) {}
   // To be called without Python's lock. Must not outlive this.
   std::function<void(const std::string& what, double fraction)> function() const;
   void operator()(const std::string& what, double fraction) const;
 
  private:
-  py::object callable_;
+  py::Object callable_;
 };
 
 }  // namespace splotchcl::python

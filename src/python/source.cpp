@@ -25,50 +25,6 @@ void Turn::unlock() {
 
 namespace {
 
-std::string text_of(const std::vector<py::ssize_t>& shape) {
-  std::string text = "(";
-  for (std::size_t i = 0; i < shape.size(); ++i)
-    text += (i > 0 ? ", " : "") + std::to_string(shape[i]);
-  return text + (shape.size() == 1 ? ",)" : ")");
-}
-
-// 1 or 3 values per particle.
-int values_per_particle(const std::string& field, const py::buffer_info& info) {
-  if (info.ndim == 1) return 1;
-  if (info.ndim == 2 && (info.shape[1] == 1 || info.shape[1] == 3)) {
-    return static_cast<int>(info.shape[1]);
-  }
-  throw UsageError("field " + field + ": an array of shape " + text_of(info.shape) +
-                   ", expected (N,) or (N, 3) for N particles");
-}
-
-// A kind of number in the machine's endianness, as struct writes it: "f", "=f", "<f".
-bool is_native(const std::string& format, char kind) {
-  constexpr char endianness = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? '<' : '>';
-  if (format.size() == 1) return format[0] == kind;
-  const bool is_here = format[0] == endianness || format[0] == '=' || format[0] == '@';
-  return format.size() == 2 && format[1] == kind && is_here;
-}
-
-bool is_contiguous(const py::buffer_info& info) {
-  py::ssize_t step = info.itemsize;
-  for (py::ssize_t axis = info.ndim; axis-- > 0;) {
-    const auto i = static_cast<std::size_t>(axis);
-    if (info.shape[i] > 1 && info.strides[i] != step) return false;
-    step *= info.shape[i];
-  }
-  return true;
-}
-
-// Lets go of the array with Python's lock, which whoever has its last column may lack.
-std::shared_ptr<const py::buffer_info> shared(py::buffer_info info) {
-  const auto let_go = [](const py::buffer_info* last) {
-    const py::gil_scoped_acquire lock;
-    delete last;
-  };
-  return {new py::buffer_info(std::move(info)), let_go};
-}
-
 template <typename Change>
 void change(Turn& turn, Change&& work) {
   without_python([&] {
@@ -81,22 +37,15 @@ void change(Turn& turn, Change&& work) {
 
 ParticleArrays::ParticleArrays() : ParticleArrays(std::make_shared<ArraySnapshot>()) {}
 
-void ParticleArrays::set_field(int type, const std::string& field, const py::buffer& values,
+void ParticleArrays::set_field(int type, const std::string& field, const py::ArrayOfNumbers& values,
                                const std::string& unit) {
-  const auto info = shared(values.request());
-  const int width = values_per_particle(field, *info);
-  const auto count = static_cast<std::uint64_t>(info->shape[0]);
-  const bool is_float = is_native(info->format, 'f');
-  const bool is_double = is_native(info->format, 'd');
-  if (!is_contiguous(*info) || (!is_float && !is_double)) {
-    throw UsageError("field " + field + ": values of the kind '" + info->format +
-                     "', expected floats or doubles in C order and the machine's endianness");
-  }
   change(turn(), [&] {
-    if (is_float) {
-      arrays_->set_field(type, field, static_cast<const float*>(info->ptr), count, width, info);
+    if (values.is_double) {
+      const auto* const doubles = static_cast<const double*>(values.first);
+      arrays_->set_field(type, field, doubles, values.count, values.width);
     } else {
-      arrays_->set_field(type, field, static_cast<const double*>(info->ptr), count, width);
+      const auto* const floats = static_cast<const float*>(values.first);
+      arrays_->set_field(type, field, floats, values.count, values.width, values.owner);
     }
     arrays_->set_unit(type, field, unit);
   });

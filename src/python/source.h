@@ -1,7 +1,5 @@
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include <atomic>
 #include <memory>
 #include <mutex>
@@ -9,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "python/interface/arrays.h"
+#include "python/interface/classes.h"
 #include "splotchcl/array_snapshot.h"
 
 namespace splotchcl::python {
@@ -26,8 +26,6 @@ class Turn {
   std::mutex mutex_;
   std::atomic<std::thread::id> owner_ = std::thread::id();
 };
-
-namespace py = pybind11;
 
 // What is drawn: a snapshot, and whose turn it is to read it.
 class Source {
@@ -52,16 +50,14 @@ class Source {
   mutable Turn turn_;
 };
 
-// Arrays of Python as a snapshot. Each is kept, with its buffer exported, as long as a column has
-// it, so that neither `del`, nor a resize, nor another in its place takes away what is drawn or
-// what was read.
+// Arrays of Python as a snapshot. Each is kept as long as a column has it, so that neither `del`,
+// nor a resize, nor another in its place takes away what is drawn or what was read.
 class ParticleArrays : public Source {
  public:
   ParticleArrays();
 
-  // Floats in C order of the shape (count) or (count, 3) are borrowed; doubles are copied. Throws
-  // UsageError for others. The unit is as files name units; empty: not known.
-  void set_field(int type, const std::string& field, const py::buffer& values,
+  // Floats are borrowed; doubles are copied. The unit is as files name units; empty: not known.
+  void set_field(int type, const std::string& field, const py::ArrayOfNumbers& values,
                  const std::string& unit);
   void set_mass(int type, double mass);
   void clear(int type);
@@ -79,7 +75,16 @@ class ParticleArrays : public Source {
   std::shared_ptr<ArraySnapshot> arrays_;
 };
 
+}  // namespace splotchcl::python
+
+template <>
+struct splotchcl::py::RootOf<splotchcl::python::ParticleArrays> {
+  using Type = python::Source;
+};
+
+namespace splotchcl::python {
+
 // Adds Source, Particles and what opens snapshots to the module.
-void bind_sources(py::module_& module);
+void bind_sources(py::Module& module);
 
 }  // namespace splotchcl::python

@@ -66,6 +66,24 @@ TEST(MergedSplats, KeepLightAndItsCenterAndSecondMoment) {
   }
 }
 
+TEST(MergedSplats, AbsorbAsMuchAsTheirMembers) {
+  std::vector<LightSplat> splats = made_up_splats(5000);
+  for (LightSplat& splat : splats)
+    splat.depth = {2 * splat.light[1], 0, splat.light[2]};
+  const auto absorbed = [](const std::vector<LightSplat>& of, std::size_t channel) {
+    double sum = 0;
+    for (const LightSplat& splat : of)
+      sum +=
+          std::pow(static_cast<double>(splat.sigma), 2) * static_cast<double>(splat.depth[channel]);
+    return sum;
+  };
+  const std::vector<LightSplat> merged = merge_splats(splats, 50);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    const double all = absorbed(splats, channel);
+    EXPECT_NEAR(absorbed(merged, channel), all, 1e-5 * all);
+  }
+}
+
 TEST(MergedSplats, AreTheSplatsThemselvesWhereThereIsRoom) {
   const std::vector<LightSplat> splats = made_up_splats(100);
   const std::vector<LightSplat> merged = merge_splats(splats, 100);
@@ -107,6 +125,26 @@ TEST(PackedSplats, KeepChannelsWithoutLightDark) {
   const std::vector<LightSplat> unpacked = unpack(pack(splats));
   EXPECT_EQ(unpacked[0].light[1], 0.0F);
   EXPECT_EQ(unpacked[0].light[2], 0.0F);
+}
+
+TEST(PackedSplats, KeepDepthsOfAllChannelsOrOneThatIsAllOfThem) {
+  std::vector<LightSplat> splats = made_up_splats(500);
+  EXPECT_EQ(pack(splats).depths(), 0U);
+  for (LightSplat& splat : splats)
+    splat.depth.fill(splat.light[0]);
+  splats[0].light = {0, 0, 0};
+  EXPECT_EQ(pack(splats).depths(), 1U);
+  for (const bool is_gray : {true, false}) {
+    if (!is_gray) splats[1].depth[2] = 0;
+    const PackedSplats packed = pack(splats);
+    EXPECT_EQ(packed.depths(), is_gray ? 1U : 3U);
+    const std::vector<LightSplat> unpacked = unpack(packed);
+    for (std::size_t i = 0; i < splats.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(unpacked[i].depth[k], splats[i].depth[k], 1.7e-4F * splats[i].depth[k]);
+    }
+    EXPECT_EQ(unpacked[0].light[0], 0.0F);
+  }
 }
 
 TEST(PackedSplats, OfNoneAreNone) {

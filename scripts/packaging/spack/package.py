@@ -41,7 +41,6 @@ class Splotchcl(CMakePackage):
     depends_on("muparser@2.3:")
     with when("+python"):
         extends("python@3.10:")
-        depends_on("py-pybind11@2.10:", type="build")
         depends_on("py-numpy", type=("build", "run"))
 
     generator("ninja")

@@ -9,8 +9,9 @@ async function unpacked() {
   const bytes = Uint8Array.from(atob(element("splats").textContent), (c) => c.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   const planes = new Uint8Array(await new Response(stream).arrayBuffer());
-  const count = settings.splats.count, columns = new Uint16Array(7 * count);
-  for (let column = 0; column < 7; ++column) {
+  const count = settings.splats.count, wide = 7 + settings.splats.depths;
+  const columns = new Uint16Array(wide * count);
+  for (let column = 0; column < wide; ++column) {
     for (let i = 0; i < count; ++i) {
       const at = 2 * column * count + i;
       columns[column * count + i] = planes[at] | planes[at + count] << 8;

@@ -1,5 +1,6 @@
-// Light adds up, in any order: every splat is a square with a Gaussian in it, added to a picture of
-// floats, which is finished as the scene says (docs/finish.md of splotchcl).
+// Every splat is a square with a Gaussian in it, added to a picture of floats, which is finished as
+// the scene says (docs/finish.md of splotchcl). Light adds up in any order; where splats absorb, they
+// are drawn from the farthest on, and each takes from what lies behind it.
 const splat_shader = `#version 300 es
 precision highp float;
 layout(location = 0) in float code_x;
@@ -9,13 +10,16 @@ layout(location = 3) in float code_sigma;
 layout(location = 4) in float code_red;
 layout(location = 5) in float code_green;
 layout(location = 6) in float code_blue;
+layout(location = 7) in float code_depth_red;
+layout(location = 8) in float code_depth_green;
+layout(location = 9) in float code_depth_blue;
 uniform vec3 lower, upper, eye, right, down, forward;
-uniform vec2 sigma_range, light_range, size;
-uniform float focal, flat_scale, footprint2, least;
-flat out vec3 light;
+uniform vec2 sigma_range, light_range, depth_range, size;
+uniform float focal, flat_scale, footprint2, least, white;
+flat out vec3 light, optical_depth;
 out vec2 place;
-float light_of(float code) {
-  return code == 0.0 ? 0.0 : exp2(mix(light_range.x, light_range.y, (code * 65535.0 - 1.0) / 65534.0));
+float value_of(float code, vec2 range) {
+  return code == 0.0 ? 0.0 : exp2(mix(range.x, range.y, (code * 65535.0 - 1.0) / 65534.0));
 }
 void main() {
   vec3 from = mix(lower, upper, vec3(code_x, code_y, code_z)) - eye;
@@ -26,8 +30,14 @@ void main() {
   float scale = flat_scale > 0.0 ? flat_scale : focal / max(depth, 1e-3 * sigma);
   float own2 = sigma * scale * sigma * scale;
   float drawn2 = own2 + 2.0 * footprint2;
-  light = vec3(light_of(code_red), light_of(code_green), light_of(code_blue)) * (own2 / drawn2 * seen);
-  float brightest = max(light.r, max(light.g, light.b));
+  float part = own2 / drawn2 * seen;
+  light = part * vec3(value_of(code_red, light_range), value_of(code_green, light_range),
+                      value_of(code_blue, light_range));
+  optical_depth = part * vec3(value_of(code_depth_red, depth_range), value_of(code_depth_green, depth_range),
+                              value_of(code_depth_blue, depth_range));
+  // What it adds, or takes from white.
+  vec3 most = max(light, white * optical_depth);
+  float brightest = max(most.r, max(most.g, most.b));
   float reach = sqrt(max(log(brightest / least), 0.0));
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
   place = corner * reach;
@@ -40,6 +50,22 @@ flat in vec3 light;
 in vec2 place;
 out vec4 added;
 void main() { added = vec4(light * exp(-dot(place, place)), 0.0); }`;
+
+// L becomes L exp(-A X) + E X phi(A X). What is left of L is in the fourth number, for the channel
+// that is drawn.
+const veil_shader = `#version 300 es
+precision highp float;
+flat in vec3 light, optical_depth;
+in vec2 place;
+uniform vec3 channel;
+out vec4 added;
+void main() {
+  float column = exp(-dot(place, place));
+  vec3 depth = optical_depth * column, through = exp(-depth);
+  // Of small depths a difference from 1 is rounding.
+  vec3 phi = mix((1.0 - through) / max(depth, 1e-9), 1.0 - 0.5 * depth, lessThan(depth, vec3(1e-3)));
+  added = vec4(light * column * phi, dot(through, channel));
+}`;
 
 const whole_shader = `#version 300 es
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }`;
@@ -128,18 +154,23 @@ class Picture {
     this.has_floats = Boolean(floats && gl.getExtension("EXT_float_blend"));
     if (!floats && !gl.getExtension("EXT_color_buffer_half_float"))
       throw new Error("This browser's WebGL does not draw into pictures of floats.");
-    this.adds = this.program(splat_shader, light_shader);
+    this.adds = this.program(splat_shader, settings.splats.depths ? veil_shader : light_shader);
     this.resolves = this.program(whole_shader, resolve_shader);
     this.blurs = this.program(whole_shader, blur_shader);
     this.finishes = this.program(whole_shader, finish_shader);
     this.splats = gl.createVertexArray();
     gl.bindVertexArray(this.splats);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    this.buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
     gl.bufferData(gl.ARRAY_BUFFER, columns, gl.STATIC_DRAW);
-    const count = settings.splats.count;
-    for (let i = 0; i < 7; ++i) {
+    const {count, depths} = settings.splats;
+    this.order = depths ? new Order(columns, settings.splats) : null;
+    for (let i = 0; i < (depths ? 10 : 7); ++i) {
+      // One depth may be that of all channels.
+      const column = depths === 1 ? Math.min(i, 7) : i;
+      const [step, first] = depths ? [4 * this.order.words, 2 * column] : [2, 2 * count * column];
       gl.enableVertexAttribArray(i);
-      gl.vertexAttribPointer(i, 1, gl.UNSIGNED_SHORT, true, 2, 2 * count * i);
+      gl.vertexAttribPointer(i, 1, gl.UNSIGNED_SHORT, true, step, first);
       gl.vertexAttribDivisor(i, 1);
     }
     this.nothing = gl.createVertexArray();
@@ -224,30 +255,60 @@ class Picture {
       if (places[name] !== undefined) gl.uniform1i(places[name], unit);
     });
     if (program === this.adds.program) {
-      gl.clearColor(0, 0, 0, 0);
-      gl.clear(gl.COLOR_BUFFER_BIT);
-      gl.enable(gl.BLEND);
-      gl.blendFunc(gl.ONE, gl.ONE);
-      gl.bindVertexArray(this.splats);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, this.settings.splats.count);
-      gl.disable(gl.BLEND);
+      this.draw_splats(places.channel);
     } else {
       gl.bindVertexArray(this.nothing);
       gl.drawArrays(gl.TRIANGLES, 0, 3);
     }
   }
 
+  draw_splats(channel) {
+    const gl = this.gl, {count, depths} = this.settings.splats;
+    const [red, green, blue] = depths ? this.settings.background : [0, 0, 0];
+    gl.clearColor(red, green, blue, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT);
+    gl.enable(gl.BLEND);
+    gl.bindVertexArray(this.splats);
+    if (!depths) {
+      gl.blendFunc(gl.ONE, gl.ONE);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+    }
+    // Blending knows one number that all channels are multiplied by: where they differ, each is drawn
+    // by itself.
+    if (depths) gl.blendFunc(gl.ONE, gl.SRC_ALPHA);
+    for (let drawn = 0; drawn < depths; ++drawn) {
+      const is_drawn = [0, 1, 2].map((c) => depths === 1 || c === drawn);
+      gl.colorMask(...is_drawn, false);
+      gl.uniform3fv(channel, [0, 1, 2].map((c) => Number(c === drawn)));
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+    }
+    gl.colorMask(true, true, true, true);
+    gl.disable(gl.BLEND);
+  }
+
+  put_in_order(forward) {
+    const rows = this.order ? this.order.rows_along(forward) : null;
+    if (!rows) return;
+    this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffer);
+    this.gl.bufferData(this.gl.ARRAY_BUFFER, rows, this.gl.DYNAMIC_DRAW);
+  }
+
   draw(camera, width, height) {
     this.resize(width, height);
-    const {splats, finish, footprint, background, source} = this.settings;
+    const {splats, finish, footprint} = this.settings;
+    // Where splats absorb, the background lies behind them already.
+    const {background, source} = this.order ? {background: [0, 0, 0], source: 0} : this.settings;
+    this.put_in_order(camera.axes.forward);
+    const white = finish.white / finish.gain;
     const focal = camera.focal(width, height);
     this.pass(this.adds, this.sums, {
       ...camera.axes, eye: camera.position(), focal,
       flat_scale: this.settings.camera.flat ? focal / camera.distance : 0,
       lower: splats.lower, upper: splats.upper, sigma_range: splats.sigma, light_range: splats.light,
+      depth_range: splats.depth, white,
       size: [width, height], footprint2: footprint * footprint,
       // Where a splat ends: many lie over a pixel.
-      least: 2e-5 * finish.white / finish.gain,
+      least: 2e-5 * white,
     });
     this.pass(this.resolves, this.light, {background, source}, {sums: this.sums});
     if (finish.bloom > 0) {

@@ -239,7 +239,7 @@ class Scene(MutableMapping[str, Any]):
             number, _ = self._component(key.split(".")[1:])
             has_component = number is not None and number < len(self._scene.component_names())
         try:
-            self._scene.with_settings([f"{key}=0"])
+            self._scene.with_settings([f"{key}=0"], None)
         except UsageError as error:
             if "an unknown key" in str(error) or not has_component:
                 raise UnknownKey(str(error)) from None
