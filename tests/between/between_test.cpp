@@ -1,25 +1,14 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <numeric>
-#include <random>
 
 #include "between/id_match.h"
 #include "between/interpolation.h"
 #include "device/frame/particle_store.h"
 #include "splotchcl/particles.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using ::testing::Each;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using Ids = std::vector<std::uint64_t>;
 
 // The device's columns between two snapshots are the host's, bit for bit.
@@ -156,7 +145,7 @@ TEST_P(DeviceColumns, AreMadeOnceForAllViewsOfAFrame) {
   on_device(column);
   device_.timer.clear();
   on_device(column);
-  EXPECT_THAT(device_.timer.times(), ::testing::IsEmpty());
+  EXPECT_THAT(device_.timer.times(), IsEmpty());
 }
 
 // Columns whose values are made when they are wanted.

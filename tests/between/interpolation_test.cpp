@@ -1,12 +1,7 @@
 // Single values between two snapshots against double precision.
 #include "between/interpolation.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
@@ -112,20 +107,18 @@ TEST(FadedColumns, AreProductsThatAreStillMadeWhenWanted) {
   const Column fade = column_between(fade_of(match));
   const Column product = faded(column_between(mass), fade, 3);
   EXPECT_NE(interpolated(product), nullptr);
-  EXPECT_THAT(std::vector<float>(product.data(), product.data() + 3),
-              ::testing::ElementsAre(6, 2.5F, 4));
+  EXPECT_THAT(std::vector<float>(product.data(), product.data() + 3), ElementsAre(6, 2.5F, 4));
   const Column of_one_mass = faded(Column::uniform(2), fade, 3);
   EXPECT_NE(interpolated(of_one_mass), nullptr);
   EXPECT_THAT(std::vector<float>(of_one_mass.data(), of_one_mass.data() + 3),
-              ::testing::ElementsAre(1.5F, 2, 0.5F));
+              ElementsAre(1.5F, 2, 0.5F));
 }
 
 TEST(FadedColumns, OfOtherValuesAreProductsAtOnce) {
   const Column product =
       faded(Column::owning({1, 2, 3}), column_between(fade_of(one_of_each())), 3);
   EXPECT_EQ(interpolated(product), nullptr);
-  EXPECT_THAT(std::vector<float>(product.data(), product.data() + 3),
-              ::testing::ElementsAre(0.75F, 2, 0.75F));
+  EXPECT_THAT(std::vector<float>(product.data(), product.data() + 3), ElementsAre(0.75F, 2, 0.75F));
 }
 
 }  // namespace

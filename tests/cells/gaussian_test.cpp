@@ -1,13 +1,9 @@
 #include "cells/gaussian.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "cells/shares_along_an_axis.h"
 #include "cells/shares_in_shells.h"
 #include "scene/constants.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,13 +1,9 @@
 #include "cells/sky_lattice.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <random>
 
 #include "scene/constants.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

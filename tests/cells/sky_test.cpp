@@ -1,15 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <map>
-#include <random>
 
 #include "cells/healpix_grid.h"
 #include "cells/picture_of_the_sky.h"
 #include "cells/shares_on_the_sky.h"
 #include "scene/constants.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,16 +1,12 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/prctl.h>
 
 #include <chrono>
-#include <fstream>
 
 #include "common/mapped_file.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "common/unfinished_name.h"
-#include "splotchcl/error.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

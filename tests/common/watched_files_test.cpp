@@ -1,18 +1,8 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-
 #include "common/file_identity.h"
-#include "splotchcl/error.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 class WatchedFile : public ::testing::Test {
  protected:

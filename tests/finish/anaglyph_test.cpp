@@ -1,10 +1,7 @@
 // Both eyes' pictures in one, for glasses of red and cyan.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "finish/finish_pictures.h"
 #include "finish/joined_pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,13 +1,7 @@
 #include "finish/bloom.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <random>
-
 #include "finish/finish_pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,12 +1,8 @@
 // Highlights that end in white, and the balance of white.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-
 #include "finish/finish_pictures.h"
 #include "finish/tone.h"
 #include "finish/white_balance.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

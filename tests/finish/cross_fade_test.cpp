@@ -1,24 +1,15 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-
 #include "finish/finish_picture.h"
 #include "finish/finish_pictures.h"
 #include "finish/joined_pictures.h"
 #include "pictures/other_scenes.h"
-#include "splotchcl/error.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class CrossFadeTest : public ::testing::Test {
  protected:

@@ -1,24 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "finish/finish_pictures.h"
 #include "finish/overlay.h"
 #include "finish/placeholders.h"
 #include "finish/ticks.h"
 #include "image/text.h"
-#include "paths.h"
 #include "scene/scalar_map.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const Font& font() {
   static const Font font("DejaVuSans");
@@ -210,7 +199,7 @@ TEST(Layout, RefusesWhatDoesNotFitAndNamesIt) {
     layout.place(Anchor::top, 1700, 20, "finish.title");
     FAIL() << "expected it to be refused";
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("finish.title: takes 1700 x 20 pixels"));
+    EXPECT_THAT(error.what(), HasSubstr("finish.title: takes 1700 x 20 pixels"));
   }
 }
 
@@ -221,8 +210,7 @@ TEST(Layout, RefusesToPutOneThingUponAnother) {
     layout.place(Anchor::right, 100, 400, "finish.color_bar");
     FAIL() << "expected it to be refused";
   } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(),
-                ::testing::HasSubstr("finish.color_bar: would lie upon finish.inset"));
+    EXPECT_THAT(error.what(), HasSubstr("finish.color_bar: would lie upon finish.inset"));
   }
 }
 

@@ -1,18 +1,9 @@
 // Pictures as they leave the finishing step, pixel by pixel.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
 #include "finish/finish_pictures.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const ScalarMap zero_to_one = {Scaling::linear, 0, 1};
 

@@ -2,8 +2,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <limits>
-
 #include "common/shrink_guard.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
@@ -11,14 +9,10 @@
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
-using namespace splotchcl::test;
 
 // Whatever is given as a snapshot and is none, or is damaged, is refused with one line that
 // says so. Damage within a format has its tests beside the format.
@@ -178,7 +172,7 @@ TEST(ShrinkingFiles, AreRefusedWhenTheNextFieldIsRead) {
   const auto snapshot = open_snapshot(folder / "snap");
   std::filesystem::resize_file(folder / "snap", 5000);
   EXPECT_THAT([&] { snapshot->read(1, "position"); },
-              ::testing::ThrowsMessage<DataError>(
+              ThrowsMessage<DataError>(
                   HasSubstr("became shorter while it was read: found 5000 bytes, expected")));
   EXPECT_THROW(snapshot->read_ids(1), DataError);
 }
@@ -208,4 +202,4 @@ TEST(ShrinkingFilesDeathTest, EndTheProgramWithAMessageWhenTheyAreInUse) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

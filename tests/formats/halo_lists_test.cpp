@@ -4,10 +4,9 @@
 #include "formats/snapshot_checks.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -175,4 +174,4 @@ TEST_F(HaloLists, OfTwoThatMayBeMeantNoneIsTaken) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -6,10 +6,9 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
@@ -288,4 +287,4 @@ TEST(SnapshotName, AFileOfAnotherKindIsRefusedWithItsFirstBytes) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

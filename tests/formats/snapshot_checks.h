@@ -1,15 +1,9 @@
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "formats/snapshot_writer.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

@@ -1,27 +1,15 @@
 // Formulas on fields: what they mean, in which unit, and what is none.
 #include "formula/formula.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <map>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "formula/formula_functions.h"
 #include "formula/formula_units.h"
 #include "formula/formula_values.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -304,7 +292,7 @@ TEST(NumbersWithUnits, AreRefusedWhereTheFieldsUnitHasAnUnknownFactor) {
       [&] {
         with_converted_numbers(Formula::parse("r < 2 Mpc", "here"), in_units_of_h, {1, 0}, "here");
       },
-      ::testing::ThrowsMessage<UsageError>(HasSubstr("h")));
+      ThrowsMessage<UsageError>(HasSubstr("h")));
   EXPECT_NO_THROW(
       with_converted_numbers(Formula::parse("r < 2", "here"), in_units_of_h, {1, 0}, "here"));
 }

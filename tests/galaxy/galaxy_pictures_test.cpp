@@ -1,20 +1,12 @@
 #include <OpenImageIO/imageio.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <vector>
 
 #include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
-#include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 // Pictures as files: of every kind, and those that hold no galaxy.
 

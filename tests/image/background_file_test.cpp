@@ -1,18 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "finish/finish_pictures.h"
 #include "image/background_image.h"
-#include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class BackgroundFile : public ::testing::Test {
  protected:

@@ -1,22 +1,10 @@
 // The scene that is drawn when only a snapshot is given.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <numeric>
-#include <random>
-
-#include "paths.h"
 #include "snapshot/memory_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/snapshot_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,22 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "map/gas.h"
 #include "map/map_files.h"
 #include "map/map_units.h"
 #include "map/sky.h"
 #include "snapshot/unit.h"
-#include "splotchcl/error.h"
 #include "splotchcl/map.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::HasSubstr;
-using testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 constexpr UnitFactors none;
 

@@ -1,21 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <string>
-#include <vector>
-
 #include "palette/palette_file.h"
-#include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::string refusal_of_palette(const std::string& text, const std::string& name) {
   try {

@@ -1,20 +1,9 @@
 #include "palette/palette_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <random>
-#include <string>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
 
 Palette parse(const std::string& text) {
   return parse_palette(text, "p.txt");

@@ -1,24 +1,11 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
-
 #include "palette/palette_file.h"
-#include "paths.h"
-#include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 namespace fs = std::filesystem;
 

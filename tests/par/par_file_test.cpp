@@ -1,16 +1,10 @@
 // The lines of a parameter file.
 #include "par/par_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::par {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 template <class Do>
 std::string message_of(Do&& action) {

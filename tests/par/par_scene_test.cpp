@@ -1,25 +1,12 @@
 // What becomes of each key of a parameter file.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-
-#include "paths.h"
 #include "splotchcl/camera.h"
-#include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 const std::string least =
     "infile=snap_\nfidx=92\nperiodic=F\nsize_label0=HSML\ncolor_label0=U\npalette0=a.pal\n"

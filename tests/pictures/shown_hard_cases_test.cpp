@@ -1,8 +1,7 @@
 // Finished pictures that the adversary found to break their promise once.
-#include <gtest/gtest.h>
-
 #include "adversary/shown_judge.h"
 #include "device/pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,20 +1,13 @@
 // Errors count in units of what is shown as white, whatever exposure and tone make of light.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "device/pictures.h"
 #include "finish/tone.h"
 #include "frames/random_frames.h"
-#include "long_tests.h"
 #include "pictures/other_scenes.h"
 #include "pictures/units_of_white.h"
 #include "reference/frames.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

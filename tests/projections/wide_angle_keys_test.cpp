@@ -1,15 +1,8 @@
 // Where the device puts particles in wide angles, and in which order, is the reference's.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstring>
-#include <map>
-#include <string>
-#include <tuple>
-
 #include "device/stages.h"
 #include "projections/wide_frames.h"
 #include "splotchcl/stereo.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

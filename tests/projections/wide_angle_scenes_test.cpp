@@ -1,13 +1,8 @@
 // Random small scenes in wide angles, for one eye or two, keep their tolerance in both shapes
 // of compositing.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "frames/random_frames.h"
 #include "frames/random_promise.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

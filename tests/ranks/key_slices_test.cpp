@@ -1,10 +1,6 @@
 #include "device/walk/key_slices.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
-#include <vector>
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,13 +1,8 @@
 // What ranks find in a pass that they make together is known to all, in the order of the particles.
 #include "ranks/rank_pass.h"
 
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <numeric>
-#include <vector>
-
 #include "ranks/thread_ranks.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,12 +1,9 @@
 #include "device/ranks/rank_share.h"
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
 #include "device/walk/key_slices.h"
 #include "device/walk/relay.h"
 #include "reference/frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,12 +1,7 @@
 // Where clouds around the camera lie in an order that ranks have in slices.
-#include <gtest/gtest.h>
-
-#include <optional>
-#include <utility>
-#include <vector>
-
 #include "device/stages/cloud_layers.h"
 #include "device/walk/key_slices.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

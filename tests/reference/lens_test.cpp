@@ -1,11 +1,7 @@
 // What a lens and fading with depth do to splats, by the reference renderer.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <vector>
-
 #include "frames.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

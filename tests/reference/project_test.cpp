@@ -1,13 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <limits>
 #include <mutex>
-#include <stdexcept>
-#include <vector>
 
 #include "frames.h"
 #include "reference/frames.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,17 +1,9 @@
 #include "splotchcl/compare.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();

@@ -1,13 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
 const std::string start = "snapshot = \"s\"\n[[component]]\ntypes = [0]\n";
@@ -26,7 +22,7 @@ TEST(ReadColumns, AreWrittenAsTheyAreRead) {
 TEST(ReadColumns, OfOtherKindsAreRefused) {
   for (const char* const value : {"{x = true}", "{}", "{x = \"\"}", "{\"x=y\" = \"a\"}"}) {
     EXPECT_THAT([&] { parse_scene(start + "[read]\ncolumns = " + value + "\n", "scene.toml"); },
-                ::testing::ThrowsMessage<UsageError>(HasSubstr("a table of strings by name")))
+                ThrowsMessage<UsageError>(HasSubstr("a table of strings by name")))
         << value;
   }
 }

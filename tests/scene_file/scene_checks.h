@@ -1,14 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "scene_file/keys.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

@@ -1,20 +1,12 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <string>
-
-#include "long_tests.h"
 #include "scene_file/random_scenes.h"
 #include "scene_file/scene_checks.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using test::expect_same;
-using ::testing::HasSubstr;
 
 TEST(FormattedScene, ReadsBackAsTheSameScene) {
   test::RandomScenes scenes(2008);
@@ -90,7 +82,7 @@ TEST(FormattedScene, LeavesOutWhatHasNoMeaning) {
   scene.components[0].color.scaling = Scaling::log;  // of no field
   const std::string text = format_scene(scene);
   EXPECT_THAT(text, HasSubstr("size = { fixed = 2, factor = 1 }"));
-  EXPECT_THAT(text, ::testing::Not(HasSubstr("color")));
+  EXPECT_THAT(text, Not(HasSubstr("color")));
 }
 
 // What no scene file can say is refused, not written as something else.

@@ -1,17 +1,8 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <fstream>
-#include <set>
-#include <sstream>
-#include <string>
-
-#include "paths.h"
 #include "scene_file/keys.h"
 #include "scene_file/random_scenes.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
@@ -20,7 +11,6 @@ using scene_file::all_keys;
 using scene_file::find_key;
 using scene_file::is_table;
 using scene_file::Key;
-using ::testing::HasSubstr;
 
 std::string read(const std::string& path) {
   std::ifstream file(test::source_folder() / path);

@@ -1,22 +1,11 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
-
 #include "scene_file/scene_checks.h"
-#include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using test::expect_same;
-using test::same;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 Scene parse(const std::string& text) {
@@ -237,4 +226,4 @@ TEST_F(SceneFileOnDisk, ThatIsAFolderIsADataError) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

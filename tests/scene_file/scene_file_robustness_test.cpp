@@ -1,19 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <random>
-#include <string>
-
-#include "long_tests.h"
 #include "scene_file/random_scenes.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::HasSubstr;
 
 // Whether a text is refused, which is to be in one line.
 bool is_refused(const std::string& text) {

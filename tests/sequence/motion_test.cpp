@@ -1,27 +1,16 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_writer.h"
-#include "paths.h"
 #include "sequence/moving_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
 using ::testing::FloatEq;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using namespace splotchcl::test;
 
 // Particles that only one of two snapshots has, or that cannot be told apart.

@@ -1,29 +1,16 @@
 #include "splotchcl/snapshot_source.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-
 #include "formats/snapshot_writer.h"
-#include "paths.h"
 #include "sequence/interpolated_snapshot.h"
 #include "snapshot/snapshot_files.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using namespace splotchcl::test;
 
 // Sequences of files: which snapshots a moment needs, and that reading ahead changes nothing.
 
@@ -303,4 +290,4 @@ TEST_F(RealSequences, OfTwoGalaxiesMatchEveryParticle) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,20 +1,13 @@
 // Sequences of steps in one file, and of files whose columns have to be named.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_writer.h"
 #include "sequence/list_sequence.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot_source.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class SequenceOfSteps : public ::testing::Test {
  protected:
@@ -62,9 +55,9 @@ TEST_F(SequenceOfSteps, IsReadBetweenTwo) {
 
 TEST_F(SequenceOfSteps, OfOtherNamesIsRefused) {
   EXPECT_THAT([&] { indices(scene("run.h5/steps/%d", 0)); },
-              ::testing::ThrowsMessage<UsageError>(HasSubstr("found no group %d in")));
+              ThrowsMessage<UsageError>(HasSubstr("found no group %d in")));
   EXPECT_THAT([&] { indices(scene("run.h5/data/%07d", 0)); },
-              ::testing::ThrowsMessage<UsageError>(HasSubstr("found no group %07d in")));
+              ThrowsMessage<UsageError>(HasSubstr("found no group %07d in")));
 }
 
 TEST_F(SequenceOfSteps, MayHaveColumnsThatAreNamed) {

@@ -1,13 +1,6 @@
 #include "smoothing/smoothing_lengths.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,20 +1,11 @@
 #include "splotchcl/array_snapshot.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <utility>
-#include <vector>
-
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 TEST(ArraySnapshot, FloatsAreBorrowed) {
   std::vector<float> position = {1, 2, 3, 4, 5, 6};

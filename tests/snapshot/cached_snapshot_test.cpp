@@ -1,15 +1,10 @@
 #include "snapshot/cached_snapshot.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "scene/scalar_map.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
@@ -52,7 +47,7 @@ TEST(CachedSnapshot, ReadsEachColumnOnce) {
     load(scene_left_to_the_data(), cached);
   std::vector<std::string> fields = source->fields_read();
   std::sort(fields.begin(), fields.end());
-  EXPECT_THAT(fields, ::testing::ElementsAre("internal_energy", "mass", "position", "velocity"));
+  EXPECT_THAT(fields, ElementsAre("internal_energy", "mass", "position", "velocity"));
 }
 
 TEST(CachedSnapshot, FindsSmoothingLengthsOnce) {

@@ -1,6 +1,6 @@
 #include "view/frame_scheduler.h"
 
-#include <gtest/gtest.h>
+#include "testing.h"
 
 namespace splotchcl::view {
 namespace {

@@ -1,21 +1,11 @@
 #include "view/requests/page_messages.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <set>
-#include <string>
-#include <vector>
-
 #include "matches.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 #include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 // What a page may say, and what is refused.
 
@@ -95,7 +85,7 @@ TEST(PageMessages, FilmsAreMadeAndCancelled) {
 }
 
 TEST(PageMessages, KeysThatMayBeSetAreOfEachComponent) {
-  EXPECT_THAT(settable_keys(2), ::testing::Contains("component.1.color.field"));
+  EXPECT_THAT(settable_keys(2), Contains("component.1.color.field"));
   EXPECT_TRUE(is_settable("component.7.select.where"));
   EXPECT_FALSE(is_settable("component.7.select.ids"));
 }

@@ -1,16 +1,12 @@
 #include "view/tree_maker.h"
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <memory>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "load/component_tree.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/load.h"
+#include "testing.h"
 #include "tree/tree_preview.h"
 #include "tree/tree_scenes.h"
 

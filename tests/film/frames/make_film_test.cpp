@@ -1,27 +1,13 @@
 // Films made by the library, without the command line.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <fstream>
-#include <limits>
-#include <string>
-#include <vector>
 
-#include "splotchcl/error.h"
 #include "splotchcl/film.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/image_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class Films : public ::testing::Test {
  protected:

@@ -1,20 +1,12 @@
 // Films are made by another program, which may do anything: here by scripts in its place.
 #include "film/movie/encoder.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <fstream>
 #include <thread>
 
-#include "splotchcl/error.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::HasSubstr;
 
 class FakeEncoder : public ::testing::Test {
  protected:
@@ -99,7 +91,7 @@ TEST_F(FakeEncoder, WithoutTenBitsIsRefusedBeforeAnythingIsDrawn) {
   MovieSettings settings;
   settings.bits = 10;
   EXPECT_THAT([&] { check_film(folder_ / "film.mp4", settings, 64, 48); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("movie.bits")));
+              ThrowsMessage<DataError>(HasSubstr("movie.bits")));
 }
 
 TEST(RealEncoder, MakesAFilmOfTenBits) {

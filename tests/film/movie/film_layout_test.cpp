@@ -1,25 +1,13 @@
 // What players are told of a film, as ffprobe reads it back, and the codecs of this ffmpeg.
 #include "film/movie/film_layout.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstdint>
 #include <cstdio>
-#include <string>
-#include <vector>
 
 #include "film/movie/encoder.h"
-#include "splotchcl/error.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::ThrowsMessage;
 
 std::string answer(const std::string& command) {
   std::string text;

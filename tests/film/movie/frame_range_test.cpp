@@ -1,16 +1,11 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "film/movie/numbered_files.h"
 #include "film/path/path_messages.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using test::refusal;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::SizeIs;
 
 TEST(SelectFrames, CountsFromTheFirstInStepsAndLeavesOutTheEnd) {

@@ -1,20 +1,12 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-
 #include "film/path/film_path.h"
 #include "film/path/path_messages.h"
-#include "paths.h"
 #include "splotchcl/scene_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using test::refusal;
-using ::testing::HasSubstr;
 
 class PathFile : public ::testing::Test {
  protected:
@@ -102,7 +94,7 @@ TEST_F(PathFile, NamesFilesFromItsOwnFolder) {
 TEST_F(PathFile, MayNameTheOneSnapshotInEachRow) {
   const std::string row = "1 2 3 4 5 6 0 0 1 92\n";
   EXPECT_EQ(frames(row + row).size(), 2U);
-  EXPECT_THAT(notes_, ::testing::ElementsAre(HasSubstr("index of the snapshot is the same")));
+  EXPECT_THAT(notes_, ElementsAre(HasSubstr("index of the snapshot is the same")));
   EXPECT_THAT(message(row + "1 2 3 4 5 6 0 0 1 93\n"), HasSubstr("add a [time] table"));
 }
 

@@ -2,23 +2,17 @@
 #include "film/path/simplify_path.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <string>
-#include <vector>
 
 #include "film/path/film_path.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using boost::qvm::mag;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 constexpr int recorded_frames = 201;
 

@@ -3,10 +3,9 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using ::testing::HasSubstr;
 
 TEST(GadgetBinaryDamage, NoPositionsIsRefused) {
@@ -67,4 +66,4 @@ TEST(GadgetBinaryDamage, ArbitraryBytesNeverCrash) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -7,10 +7,9 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -297,4 +296,4 @@ TEST(GadgetHdf5, AnHdf5FileOfAnotherKindIsRefusedWithItsGroups) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

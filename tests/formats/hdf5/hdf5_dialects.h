@@ -1,16 +1,10 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

@@ -1,18 +1,11 @@
-#include <array>
-
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class Hdf5Layout : public ::testing::Test {
  protected:
@@ -197,9 +190,8 @@ TEST_F(Hdf5Layout, GroupsThatLeadInCirclesHaveAnEnd) {
     H5Lcreate_soft("/", file.id(), "a/b", H5P_DEFAULT, H5P_DEFAULT);
     H5Lcreate_soft("/", file.id(), "a/c", H5P_DEFAULT, H5P_DEFAULT);
   }
-  EXPECT_THAT([&] { open_snapshot(path_); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("no positions")));
+  EXPECT_THAT([&] { open_snapshot(path_); }, ThrowsMessage<DataError>(HasSubstr("no positions")));
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

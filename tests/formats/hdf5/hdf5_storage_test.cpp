@@ -7,10 +7,9 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Properties = Hdf5Handle<H5Pclose>;
@@ -173,4 +172,4 @@ TEST_F(Hdf5Storage, AVirtualDatasetMadeOfItselfIsRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -4,10 +4,9 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -101,4 +100,4 @@ TEST_F(NamedColumns, MayBeThoseOfASnapshotWithAHeader) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -4,10 +4,9 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using ::testing::Contains;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
@@ -99,4 +98,4 @@ TEST_F(OpenPmd, AnIterationIsASnapshotByItsPath) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

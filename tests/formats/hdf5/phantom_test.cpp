@@ -1,21 +1,14 @@
 
-#include <cmath>
-
 #include "formats/halo_catalog.h"
 #include "formats/hdf5/hdf5_file.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
-#include "paths.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Optional;
 using namespace splotchcl::test;
 

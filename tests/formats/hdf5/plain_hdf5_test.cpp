@@ -1,19 +1,11 @@
-#include <array>
-
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class PlainHdf5 : public ::testing::Test {
  protected:
@@ -320,7 +312,7 @@ TEST_F(PlainHdf5, IdentifiersThatAreNotWholeAreRefused) {
     write_values(file, "ids", {1, 2.5});
   }
   EXPECT_THAT([&] { open_snapshot(path_)->read_ids(0); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("not one whole number")));
+              ThrowsMessage<DataError>(HasSubstr("not one whole number")));
 }
 
 TEST_F(PlainHdf5, IdentifiersMayBeWholeFloats) {
@@ -353,7 +345,7 @@ TEST_F(PlainHdf5, AnAxisOfAnotherLengthIsNotTakenForZero) {
     write_values(file, "z", {3, 6, 9});
   }
   EXPECT_THAT([&] { open_snapshot(path_); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("z has not the 2 rows")));
+              ThrowsMessage<DataError>(HasSubstr("z has not the 2 rows")));
 }
 
 TEST_F(PlainHdf5, WhatOtherGroupsHaveOfAsManyParticlesIsSaid) {
@@ -430,8 +422,8 @@ TEST_F(PlainHdf5, RowsThatWereNeverWrittenAreRefusedBeforeMemoryIsTaken) {
                                                   H5P_DEFAULT, properties.id(), H5P_DEFAULT));
   }
   EXPECT_THAT([&] { open_snapshot(path_)->read(0, "position"); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("they are not all in the file")));
+              ThrowsMessage<DataError>(HasSubstr("they are not all in the file")));
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,20 +1,10 @@
-#include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <limits>
-
 #include "formats/numpy/numpy_writer.h"
 #include "formats/snapshot_checks.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 // Positions as they were written, offsets from the origin added up again.
 std::vector<double> positions(const Snapshot& snapshot) {
@@ -219,7 +209,7 @@ TEST_P(NumpyArchive, AnAxisOfAnotherLengthIsNotTakenForZero) {
   const std::string three = numpy_bytes(numpy_header("<f4", "(3,)"), bytes_of<float>({1, 4, 7}));
   write_zip(folder / "a.npz", {{"x.npy", two}, {"y.npy", two}, {"z.npy", three}}, GetParam());
   EXPECT_THAT([&] { open_snapshot(folder / "a.npz"); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("z is not one number for each of 2")));
+              ThrowsMessage<DataError>(HasSubstr("z is not one number for each of 2")));
 }
 
 TEST_P(NumpyArchive, ASingleMassIsThatOfAllParticles) {
@@ -310,4 +300,4 @@ TEST(NumpyArchives, AZipWithoutArraysIsRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

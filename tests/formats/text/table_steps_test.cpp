@@ -1,19 +1,11 @@
 // Tables that hold several times one below the other.
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_format.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class TableOfSteps : public ::testing::Test {
  protected:
@@ -99,4 +91,4 @@ TEST_F(TableOfSteps, IsNoneWhereNoParticleIsThereTwice) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,18 +1,10 @@
-#include <cmath>
-
 #include "formats/snapshot_checks.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class TextForm : public ::testing::Test {
  protected:
@@ -50,8 +42,7 @@ TEST_F(TextForm, ALineThatMayTellTheNumberOfRowsIsSaid) {
   EXPECT_THAT(snapshot->info().notes,
               ElementsAre(AllOf(HasSubstr("line 1 is taken for a particle; if its 2 is the number"),
                                 HasSubstr("read.skip_lines"))));
-  EXPECT_THAT(open("2 1 0.5\n1 2 3\n4 5 6\n", {{"x", "y", "z"}})->info().notes,
-              ::testing::IsEmpty());
+  EXPECT_THAT(open("2 1 0.5\n1 2 3\n4 5 6\n", {{"x", "y", "z"}})->info().notes, IsEmpty());
 }
 
 TEST_F(TextForm, TextBeforeNamesOfPositionsIsLeftOut) {
@@ -161,7 +152,7 @@ TEST_F(TextForm, SystemsOfUnitsCountWhereTheFileSaysNothing) {
   EXPECT_EQ(unit_of(*snapshot, "mass"), "kg");
   EXPECT_THAT(snapshot->info().notes,
               ElementsAre("units that the file states are kept: mass in kg"));
-  EXPECT_THAT(open(table, {{}, 0, {"si"}})->info().notes, ::testing::IsEmpty());
+  EXPECT_THAT(open(table, {{}, 0, {"si"}})->info().notes, IsEmpty());
   EXPECT_EQ(unit_of(*open(table, {{}, 0, {"position=pc", "cgs"}}), "position"), "pc");
   EXPECT_THAT(refusal_of(table, {{}, 0, {"gadgets"}}), HasSubstr("or a system: gadget, cgs, si"));
 }
@@ -198,7 +189,7 @@ TEST_F(TextForm, LinesOfBinaryFilesAreNotSkipped) {
       [&] {
         open_snapshot(path_, {{}, 1});
       },
-      ::testing::ThrowsMessage<UsageError>(HasSubstr("read.skip_lines is for tables")));
+      ThrowsMessage<UsageError>(HasSubstr("read.skip_lines is for tables")));
 }
 
 TEST_F(TextForm, ColumnsMayHaveOtherNames) {
@@ -299,4 +290,4 @@ TEST_F(TextForm, NumbersOfColumnsStayWithNamesWhereOthersAreCutOut) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

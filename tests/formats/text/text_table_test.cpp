@@ -1,17 +1,10 @@
-#include <cmath>
-
 #include "formats/snapshot_checks.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class TextTable : public ::testing::Test {
  protected:
@@ -330,4 +323,4 @@ TEST_F(TextTable, AFolderOfTablesIsNoSnapshot) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

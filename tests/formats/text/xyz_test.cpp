@@ -2,10 +2,9 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -79,4 +78,4 @@ TEST_F(Xyz, OtherNumbersOfRowsThanItSaysAreRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -2,13 +2,7 @@
 // coarse grids say.
 #include "scene/plan/refinement_filter.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <vector>
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

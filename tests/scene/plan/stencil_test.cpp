@@ -2,14 +2,8 @@
 // docs/dev/accuracy.md states.
 #include "scene/plan/stencil.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 #include "scene/plan/blur_filter.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

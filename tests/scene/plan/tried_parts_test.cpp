@@ -1,9 +1,6 @@
 #include "scene/plan/tried_parts.h"
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <vector>
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
