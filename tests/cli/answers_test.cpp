@@ -1,16 +1,9 @@
 // Questions that users asked: the pages that answer them, and what the answers rest on.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <sstream>
-
 #include "cli/program.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 // Pages are wrapped anywhere.
 std::string unwrapped(const std::string& page) {

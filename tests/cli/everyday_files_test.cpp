@@ -1,16 +1,11 @@
 // What people have on disk, in files of numbers; of texts sessions tell.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "cli/program.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_writer.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 class EverydayFiles : public ::testing::Test {
  protected:

@@ -1,14 +1,9 @@
 // Scenes of examples/, as the program draws them.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <fstream>
-
 #include "cli/program.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,13 +1,9 @@
 // The flight of scripts/fly_in through a universe, without the galaxy at its end.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "cli/lit_pictures.h"
 #include "cli/program.h"
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/image_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
@@ -25,18 +21,20 @@ double brightness(const std::filesystem::path& path) {
 ProgramResult fly(const TemporaryFolder& folder, const std::string& frames) {
   write_image(folder / "spiral.exr", SpiralPicture().draw());
   const std::string source = test::source_folder().string();
-  return run_in(
-      folder, "mkdir examples demo && cp '" + source + "/examples/fly_in.toml' examples && '" +
-                  source +
-                  "/scripts/fly_in' --path > demo/fly_in.path && "
-                  "\"$splotchcl\" generate universe --particles 300000 -o demo/universe.gadget && "
-                  "\"$splotchcl\" galaxy spiral.exr -o demo/galaxy.hdf5 --disk-stars 100 "
-                  "--bulge-stars 100 --clusters 1 --cloud-points 1 && "
-                  "sed -i 's/ component.galaxy.brightness//; s/ [0-9.]*$//' demo/fly_in.path && "
-                  "\"$splotchcl\" movie examples/fly_in.toml " +
-                  frames +
-                  " --set image.size=[160,90] --set component.galaxy.brightness=0 "
-                  "--set component.dust.absorption=0");
+  return run_in(folder,
+                "mkdir examples demo && cp '" + source + "/examples/fly_in.toml' examples && '" +
+                    source +
+                    "/scripts/fly_in' --path > demo/fly_in.path && "
+                    "cp '" +
+                    made_once("generate universe --particles 300000").string() +
+                    "' demo/universe.gadget && "
+                    "\"$splotchcl\" galaxy spiral.exr -o demo/galaxy.hdf5 --disk-stars 100 "
+                    "--bulge-stars 100 --clusters 1 --cloud-points 1 && "
+                    "sed -i 's/ component.galaxy.brightness//; s/ [0-9.]*$//' demo/fly_in.path && "
+                    "\"$splotchcl\" movie examples/fly_in.toml " +
+                    frames +
+                    " --set image.size=[160,90] --set component.galaxy.brightness=0 "
+                    "--set component.dust.absorption=0");
 }
 
 // The universe alone, around the place where the galaxy would be.

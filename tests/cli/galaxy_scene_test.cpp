@@ -1,21 +1,13 @@
 // The scene that `splotchcl galaxy` writes, from all sides, and what evolve makes of galaxies.
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <sstream>
-
 #include "cli/lit_pictures.h"
 #include "cli/program.h"
 #include "damaged_hdf5.h"
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/image_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class GalaxyScene : public ::testing::Test {
  protected:

@@ -1,14 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-
-#include "paths.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 
@@ -35,6 +29,17 @@ inline ProgramResult run_in(const TemporaryFolder& folder, const std::string& co
 // Runs the program with these arguments, which the shell splits.
 inline ProgramResult splotchcl_in(const TemporaryFolder& folder, const std::string& arguments) {
   return run_in(folder, "\"$splotchcl\" " + arguments);
+}
+
+// What the program makes with these arguments, once for all tests: to be copied.
+inline std::filesystem::path made_once(const std::string& arguments) {
+  static std::map<std::string, TemporaryFolder> folders;
+  const auto [place, is_new] =
+      folders.try_emplace(arguments, "made" + std::to_string(folders.size()));
+  if (is_new) {
+    EXPECT_EQ(splotchcl_in(place->second, arguments + " -o made").exit_code, 0) << arguments;
+  }
+  return place->second / "made";
 }
 
 inline bool is_one_line(const std::string& text) {

@@ -1,13 +1,9 @@
 // Real snapshots, drawn without a scene.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "cli/program.h"
 #include "real_snapshots.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/image_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,17 +1,11 @@
 // Trees of merged particles, from the command that makes them to what is told of a picture.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "cli/program.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 class Trees : public ::testing::Test {
  protected:

@@ -1,17 +1,10 @@
 // Errors name what was typed: an option, or a key of a scene.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-
 #include "cli/program.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 class TypedOptions : public ::testing::Test {
  protected:
