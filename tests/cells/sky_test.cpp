@@ -121,7 +121,7 @@ TEST(SharesOnTheSky, AreWithinTheToleranceOfExactOnes) {
 TEST(SharesOnTheSky, LoseNoSmallParticle) {
   std::mt19937 random(5);
   const HealpixGrid grid(64, nested);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::rounds(15000); ++i) {
     std::vector<CellShare> shares;
     const GaussianOnSky particle(random_direction(random), 1e-8);
     add_shares_on_the_sky(grid, particle, {1e-3, 1e-3}, shares);

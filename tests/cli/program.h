@@ -31,15 +31,24 @@ inline ProgramResult splotchcl_in(const TemporaryFolder& folder, const std::stri
   return run_in(folder, "\"$splotchcl\" " + arguments);
 }
 
-// What the program makes with these arguments, once for all tests: to be copied.
-inline std::filesystem::path made_once(const std::string& arguments) {
+// A folder in which this was run, once for all tests: to be copied.
+inline const TemporaryFolder& folder_after(const std::string& command) {
   static std::map<std::string, TemporaryFolder> folders;
   const auto [place, is_new] =
-      folders.try_emplace(arguments, "made" + std::to_string(folders.size()));
+      folders.try_emplace(command, "made" + std::to_string(folders.size()));
   if (is_new) {
-    EXPECT_EQ(splotchcl_in(place->second, arguments + " -o made").exit_code, 0) << arguments;
+    const ProgramResult made = run_in(place->second, command);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
   }
-  return place->second / "made";
+  return place->second;
+}
+inline void copy_into(const TemporaryFolder& folder, const TemporaryFolder& made) {
+  EXPECT_EQ(run_in(folder, "cp -a '" + made.path().string() + "/.' .").exit_code, 0);
+}
+
+// What the program makes with these arguments.
+inline std::filesystem::path made_once(const std::string& arguments) {
+  return folder_after("\"$splotchcl\" " + arguments + " -o made") / "made";
 }
 
 inline bool is_one_line(const std::string& text) {

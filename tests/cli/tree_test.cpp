@@ -11,10 +11,8 @@ class Trees : public ::testing::Test {
  protected:
   void SetUp() override {
     SKIP_WITHOUT_DEVICE();
-    const ProgramResult made =
-        run_in(folder_,
-               "\"$splotchcl\" generate universe --particles 100000 -o u && \"$splotchcl\" tree u");
-    ASSERT_EQ(made.exit_code, 0) << made.err;
+    copy_into(folder_, folder_after("\"$splotchcl\" generate universe --particles 100000 -o u && "
+                                    "\"$splotchcl\" tree u"));
   }
   ProgramResult render(const std::string& arguments) const {
     return splotchcl_in(folder_,
