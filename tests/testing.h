@@ -49,4 +49,18 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 
+namespace test {
+
+// What the action was refused with; empty where it was not.
+template <class Refusal, class Action>
+std::string refusal_by(const Action& action) {
+  try {
+    action();
+  } catch (const Refusal& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace test
 }  // namespace splotchcl

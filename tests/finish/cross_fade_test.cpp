@@ -28,12 +28,7 @@ class CrossFadeTest : public ::testing::Test {
                             "finish.cross_fade.amount=" + std::to_string(amount)});
   }
   std::string refusal(const Scene& scene) const {
-    try {
-      check_finish(scene, {});
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "not refused";
+    return refusal_by<UsageError>([&] { check_finish(scene, {}); });
   }
 
  private:

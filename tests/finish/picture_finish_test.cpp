@@ -8,12 +8,7 @@ namespace {
 const ScalarMap zero_to_one = {Scaling::linear, 0, 1};
 
 std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "not refused";
+  return refusal_by<UsageError>([&] { action(); });
 }
 
 // The smallest rectangle that holds all pixels for which `is_inside` says so.

@@ -124,12 +124,8 @@ class BadParticles : public ::testing::Test {
         "name = 'gas'\n",
         "scene");
     std::vector<std::string> notes;
-    try {
-      load_frame(scene, *open_snapshot(folder_ / "snap"), notes);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>(
+        [&] { load_frame(scene, *open_snapshot(folder_ / "snap"), notes); });
   }
   const TemporaryFolder folder_;
 };

@@ -7,9 +7,6 @@
 namespace splotchcl::test {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::Optional;
 
 class HaloLists : public ::testing::Test {
@@ -25,12 +22,7 @@ class HaloLists : public ::testing::Test {
     return read_halo(path, number, 1).ids;
   }
   static std::string refusal_of_halo(const std::filesystem::path& path, std::uint64_t number) {
-    try {
-      read_halo(path, number, 1);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>([&] { read_halo(path, number, 1); });
   }
   const TemporaryFolder folder_;
 };

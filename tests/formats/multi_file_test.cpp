@@ -9,9 +9,6 @@
 namespace splotchcl::test {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-
 // The formats that sets come in; 3 is HDF5, as in Gadget's own parameter files.
 class MultiFile : public ::testing::TestWithParam<int> {
  protected:

@@ -64,12 +64,7 @@ inline void expect_columns_of(const Snapshot& actual, const TestSnapshot& expect
 
 // What opening says about a file that must be refused; empty when it is not refused.
 inline std::string refusal(const std::filesystem::path& path) {
-  try {
-    open_snapshot(path);
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return {};
+  return refusal_by<DataError>([&] { open_snapshot(path); });
 }
 
 }  // namespace splotchcl::test

@@ -119,17 +119,14 @@ void expect_of_type(const Snapshot& snapshot, std::string what, std::string valu
 // Of opening it and of reading all of it.
 template <class Refusal>
 std::string refusal_of_all(const std::filesystem::path& path, const SnapshotOptions& options) {
-  try {
+  return refusal_by<Refusal>([&] {
     const auto snapshot = open_snapshot(path, options);
     for (const ParticleTypeInfo& type : snapshot->info().types) {
       for (const FieldInfo& field : type.fields)
         snapshot->read(type.type, field.name);
       snapshot->read_ids(type.type);
     }
-  } catch (const Refusal& error) {
-    return error.what();
-  }
-  return "not refused";
+  });
 }
 
 }  // namespace

@@ -234,12 +234,9 @@ TEST(FormulaUnits, ThatDifferAreNotAddedNorCompared) {
                            "T > 1 ? T : rho", "hypot(rho, T)", "T * r - rho * r"}) {
     EXPECT_THROW(unit(text), UsageError) << text;
   }
-  try {
-    unit("2 * T + rho > 3");
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("here: found 2 * T in K beside rho in g/cm^3")));
-  }
+  EXPECT_THAT(
+      [&] { unit("2 * T + rho > 3"); },
+      ThrowsMessage<UsageError>(AllOf(HasSubstr("here: found 2 * T in K beside rho in g/cm^3"))));
 }
 
 TEST(FormulaUnits, OfOneDimensionButNotOneSizeAreRefusedToo) {
@@ -263,12 +260,7 @@ double number_in(const std::string& text) {
 }
 
 std::string refusal_of_units(const std::string& text) {
-  try {
-    number_in(text);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
+  return refusal_by<UsageError>([&] { number_in(text); });
 }
 
 TEST(NumbersWithUnits, AreConvertedToWhatTheyAreComparedWith) {

@@ -63,12 +63,7 @@ TEST(GalaxyFile, NothingIsLeftWhereItCannotBeWritten) {
 }
 
 std::string refusal_of_curve(const std::string& text) {
-  try {
-    parse_rotation_curve(text, "curve.txt");
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_by<DataError>([&] { parse_rotation_curve(text, "curve.txt"); });
 }
 
 TEST(RotationCurve, DefaultIsLinearInsideAndFlatOutside) {

@@ -38,12 +38,7 @@ double light(const Galaxy& galaxy) {
 }
 
 std::string refusal(const std::filesystem::path& path) {
-  try {
-    read_galaxy(path, small_settings());
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_by<DataError>([&] { read_galaxy(path, small_settings()); });
 }
 
 TEST(GalaxyPictures, EightAndSixteenBitsAndFloatsHoldTheSameGalaxy) {

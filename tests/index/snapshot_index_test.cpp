@@ -158,12 +158,8 @@ TEST_F(Index, IsNotUsedWithAnyByteOfABoxChanged) {
 TEST_F(Index, DoesNotOverwriteAnotherFile) {
   const auto snapshot = write(long_row());
   write_bytes(path(), "notes of a user");
-  try {
-    SnapshotIndex::make(*snapshot, {}).write(snapshot->info());
-    FAIL() << "it was overwritten";
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("found a file that is no index"));
-  }
+  EXPECT_THAT([&] { SnapshotIndex::make(*snapshot, {}).write(snapshot->info()); },
+              ThrowsMessage<UsageError>(HasSubstr("found a file that is no index")));
 }
 
 TEST_F(Index, IsNotMadeOfTables) {

@@ -25,12 +25,7 @@ MemorySnapshot centered_gas_row(int count = 5) {
 }
 
 std::string refusal(const Scene& scene, const Snapshot& snapshot) {
-  try {
-    load(scene, snapshot);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by<Error>([&] { load(scene, snapshot); });
 }
 
 std::vector<float> values(const Column& column, std::size_t count) {

@@ -11,12 +11,7 @@ Component parse(const std::string& lines) {
 }
 
 std::string refused(const std::string& lines) {
-  try {
-    parse(lines);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by<UsageError>([&] { parse(lines); });
 }
 
 TEST(ParticleKeys, SelectByConditionsPlacesAndIds) {

@@ -13,12 +13,7 @@ Gas wide_particle() {
 }
 
 std::string refusal(const Scene& scene) {
-  try {
-    map_of(scene, wide_particle().snapshot());
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by<Error>([&] { map_of(scene, wide_particle().snapshot()); });
 }
 
 TEST(MapUnits, AreThoseThatTheSettingsSay) {

@@ -18,12 +18,7 @@ double ratio(const std::string& from, const std::string& to, const UnitFactors& 
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_unit(text, none, "key map.unit");
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_by<UsageError>([&] { parse_unit(text, none, "key map.unit"); });
 }
 
 TEST(Units, MultiplyDivideAndTakePowers) {

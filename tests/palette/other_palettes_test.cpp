@@ -6,12 +6,7 @@ namespace splotchcl {
 namespace {
 
 std::string refusal_of_palette(const std::string& text, const std::string& name) {
-  try {
-    parse_palette(text, name);
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal_by<DataError>([&] { parse_palette(text, name); });
 }
 
 const std::vector<Rgb> red_white_blue = {{1, 0, 0}, {1, 1, 1}, {0, 0, 1}};

@@ -10,12 +10,7 @@ Palette parse(const std::string& text) {
 }
 
 std::string message_for(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return test::refusal_by<DataError>([&] { parse(text); });
 }
 
 TEST(PaletteFile, HasAKnotPerLine) {

@@ -10,12 +10,7 @@ using ::testing::IsSupersetOf;
 namespace fs = std::filesystem;
 
 std::string message_for_name(const std::string& name) {
-  try {
-    load_palette(name);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return test::refusal_by<Error>([&] { load_palette(name); });
 }
 
 double lightness(const Rgb& rgb) {

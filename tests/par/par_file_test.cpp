@@ -8,12 +8,7 @@ namespace {
 
 template <class Do>
 std::string message_of(Do&& action) {
-  try {
-    action();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::refusal_by<UsageError>([&] { action(); });
 }
 
 TEST(ParFile, HasKeysValuesAndRemarks) {

@@ -21,12 +21,7 @@ class ParScenes : public ::testing::Test {
     return read_par_file(folder_ / "x.par", settings, notes_);
   }
   std::string error(const std::string& more) {
-    try {
-      read(more);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test::refusal_by<UsageError>([&] { read(more); });
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 

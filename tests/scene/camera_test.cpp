@@ -32,12 +32,7 @@ Camera simple_camera() {
 }
 
 std::string message_for(const Camera& camera) {
-  try {
-    make_camera_frame(camera, 100, 100);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return test::refusal_by<UsageError>([&] { make_camera_frame(camera, 100, 100); });
 }
 
 class RandomCameras : public ::testing::Test {

@@ -70,12 +70,7 @@ TEST(DeepKeys, AreNotDotsInTextsRemarksAndNumbers) {
 
 TEST(LongScenes, HaveLimitsOnTextsAndComponents) {
   const auto message = [](const std::string& text) -> std::string {
-    try {
-      parse_scene(text, "scene.toml");
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "none";
+    return test::refusal_by<UsageError>([&] { parse_scene(text, "scene.toml"); });
   };
   const std::string title = "snapshot = 'x'\n[finish.title]\ntext = \"";
   EXPECT_THAT(message(title + std::string(2000000, 'm') + "\"\n"), HasSubstr("at most 2000 bytes"));

@@ -195,13 +195,9 @@ TEST(HermitePositions, TakeGadgetsVelocitiesOverTheScaleFactor) {
 TEST(HermitePositions, AreRefusedWithoutVelocities) {
   const auto first = MovingSnapshot(0).ids(0, {1}).positions(0, {0, 0, 0}).make();
   const auto second = MovingSnapshot(1).ids(0, {1}).positions(0, {0, 0, 0}).make();
-  try {
-    between(first, second, 0.5, Interpolation::hermite);
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("which needs velocities"));
-    EXPECT_THAT(error.what(), HasSubstr("\"linear\""));
-  }
+  EXPECT_THAT([&] { between(first, second, 0.5, Interpolation::hermite); },
+              ThrowsMessage<UsageError>(
+                  AllOf(HasSubstr("which needs velocities"), HasSubstr("\"linear\""))));
 }
 
 TEST(HermitePositions, AreRefusedWhereVelocitiesMayMeanAnything) {

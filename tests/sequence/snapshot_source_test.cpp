@@ -138,12 +138,8 @@ TEST_F(Sequence, SelectsByIdsBetweenSnapshots) {
 
 TEST_F(Sequence, OutOfRangeIsRefused) {
   for (const double index : {1.5, 6.001, -1.0}) {
-    try {
-      SnapshotSource().at(scene(index));
-      FAIL() << index;
-    } catch (const UsageError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("expected a number from 2"));
-    }
+    EXPECT_THAT([&] { SnapshotSource().at(scene(index)); },
+                ThrowsMessage<UsageError>(HasSubstr("expected a number from 2")));
   }
 }
 

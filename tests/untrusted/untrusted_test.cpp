@@ -113,12 +113,7 @@ TEST_F(CutFile, IsAnErrorWhereItIsReadAnew) {
 // What is thrown, or nothing.
 template <typename Exception>
 std::string error_of(const std::function<void()>& task, const ChildLimits& limits = {}) {
-  try {
-    run_in_child("file", task, limits);
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by<Exception>([&] { run_in_child("file", task, limits); });
 }
 
 TEST(ChildProcess, ReturnsWhereItsTaskReturnsAndChangesNothingHere) {

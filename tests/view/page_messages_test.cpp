@@ -16,12 +16,7 @@ PageState state_of(const std::string& settings, const std::string& hidden = "[]"
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_page_message(text);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_by<UsageError>([&] { parse_page_message(text); });
 }
 
 std::string refusal_of_setting(const std::string& key, const std::string& value) {

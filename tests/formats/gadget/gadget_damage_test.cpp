@@ -6,8 +6,6 @@
 namespace splotchcl::test {
 namespace {
 
-using ::testing::HasSubstr;
-
 TEST(GadgetBinaryDamage, NoPositionsIsRefused) {
   const TemporaryFolder folder;
   TestSnapshot written = small_snapshot();

@@ -10,10 +10,6 @@
 namespace splotchcl::test {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::HasSubstr;
-
 struct NamedStyle {
   const char* name;
   Hdf5Style style;

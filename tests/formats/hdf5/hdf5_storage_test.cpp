@@ -10,8 +10,6 @@
 namespace splotchcl::test {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using Properties = Hdf5Handle<H5Pclose>;
 
 // Two particles, and the dataset Field with properties of its own.
@@ -34,12 +32,7 @@ class Hdf5Storage : public ::testing::Test {
   std::string refusal_of_field() {
     file_ = Hdf5Output();
     const auto snapshot = open_snapshot(path_);
-    try {
-      snapshot->read(0, "Field");
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>([&] { snapshot->read(0, "Field"); });
   }
   const Hdf5Silence silence_;
   const TemporaryFolder folder_;

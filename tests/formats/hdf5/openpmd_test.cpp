@@ -7,11 +7,7 @@
 namespace splotchcl::test {
 namespace {
 
-using ::testing::Contains;
 using ::testing::DoubleNear;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Pointwise;
 
 class OpenPmd : public ::testing::Test {

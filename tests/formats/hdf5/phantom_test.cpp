@@ -135,12 +135,7 @@ class HaloCatalog : public ::testing::Test {
     return all;
   }
   std::string refusal_of(const std::string& name, std::uint64_t number) const {
-    try {
-      read_halo(folder_ / name, number, 0);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>([&] { read_halo(folder_ / name, number, 0); });
   }
   const TemporaryFolder folder_;
 };

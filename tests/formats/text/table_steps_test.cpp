@@ -11,12 +11,7 @@ class TableOfSteps : public ::testing::Test {
  protected:
   void write(const std::string& text) const { write_bytes(path_, text); }
   std::string refusal_of(const std::string& step) const {
-    try {
-      open_snapshot(path_ / step);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>([&] { open_snapshot(path_ / step); });
   }
   const TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "table";
