@@ -1,10 +1,7 @@
 // The least that stages have to move and to compute.
 #include "floors.h"
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
+#include "testing.h"
 
 namespace splotchcl::bench {
 namespace {

@@ -1,9 +1,8 @@
 // What is counted in the lists of a frame is what the renderer drew.
 #include "frame_counts.h"
 
-#include <gtest/gtest.h>
-
 #include "synthetic.h"
+#include "testing.h"
 
 namespace splotchcl::bench {
 namespace {

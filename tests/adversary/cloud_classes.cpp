@@ -1,8 +1,6 @@
-#include <cmath>
-#include <utility>
-
 #include "adversary/classes.h"
 #include "adversary/starts.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

@@ -1,11 +1,7 @@
 #include "adversary/exact_map.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <utility>
-
 #include "adversary/places.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

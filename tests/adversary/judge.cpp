@@ -1,16 +1,11 @@
 #include "adversary/judge.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 #include "adversary/map_judge.h"
 #include "adversary/shown_judge.h"
 #include "adversary/trial_frame.h"
-#include "splotchcl/error.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

@@ -12,23 +12,14 @@
 // Without options: a short search over a sample of the classes, or with SPLOTCHCL_LONG_TESTS a
 // long one over all. Exits with 1 if a promise was broken.
 #include <chrono>
-#include <cstdint>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <iterator>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "adversary/classes.h"
 #include "adversary/judge.h"
 #include "adversary/search.h"
 #include "adversary/simplify.h"
 #include "adversary/trial.h"
-#include "long_tests.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

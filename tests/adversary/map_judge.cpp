@@ -1,14 +1,9 @@
 #include "adversary/map_judge.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "adversary/exact_map.h"
 #include "adversary/places.h"
 #include "splotchcl/map.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

@@ -1,11 +1,7 @@
 #include "adversary/places.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <utility>
-
 #include "device/scenes.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 

@@ -1,14 +1,9 @@
 #include "adversary/search.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "adversary/trial_frame.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

@@ -1,11 +1,5 @@
 #include "adversary/shown_judge.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "adversary/trial_frame.h"
 #include "finish/bloom.h"
 #include "finish/tone.h"
@@ -13,6 +7,7 @@
 #include "pictures/units_of_white.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

@@ -1,10 +1,8 @@
 #include "adversary/simplify.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdio>
-#include <cstdlib>
-#include <utility>
+
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

@@ -1,7 +1,6 @@
 #include "adversary/starts.h"
 
-#include <cmath>
-#include <utility>
+#include "testing.h"
 
 namespace splotchcl::adversary {
 

@@ -1,12 +1,8 @@
 #include "adversary/trial.h"
 
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <iomanip>
-#include <sstream>
-#include <stdexcept>
-#include <utility>
+
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

@@ -1,18 +1,12 @@
 #include "adversary/trial_frame.h"
 
-#include <algorithm>
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <cstddef>
-#include <memory>
-#include <numeric>
-#include <utility>
-#include <vector>
 
 #include "adversary/places.h"
 #include "between/interpolation.h"
 #include "device/scenes.h"
 #include "scene/projection.h"
+#include "testing.h"
 
 namespace splotchcl::adversary {
 namespace {

@@ -1,7 +1,5 @@
-#include <algorithm>
-#include <set>
-
 #include "architecture/rules.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,9 +1,6 @@
-#include <map>
-#include <optional>
-#include <set>
-
 #include "architecture/project_files.h"
 #include "architecture/rules.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,18 +1,8 @@
 // Pages: their links lead to what is there, the site has all of them, and they are not too long.
-#include <gtest/gtest.h>
-
 #include <cctype>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <set>
-#include <sstream>
-#include <string>
-#include <vector>
 
 #include "matches.h"
-#include "paths.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

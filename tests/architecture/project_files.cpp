@@ -1,10 +1,7 @@
 #include "architecture/project_files.h"
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
-
 #include "matches.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

@@ -1,16 +1,7 @@
 // Two pages say by which test each promise is held: those tests exist.
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <iterator>
-#include <map>
-#include <set>
-#include <string>
-#include <vector>
-
 #include "architecture/project_files.h"
 #include "matches.h"
-#include "paths.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

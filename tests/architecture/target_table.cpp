@@ -1,9 +1,6 @@
 #include "architecture/target_table.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <iterator>
-#include <stdexcept>
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

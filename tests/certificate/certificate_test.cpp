@@ -1,13 +1,8 @@
 #include "certificate/certificate.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "reference/frames.h"
 #include "scene/plan/splat_limits.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,13 +1,8 @@
 #include "certificate/expected_needs.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 #include "parallel/for_blocks.h"
 #include "reference/frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,16 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <map>
-#include <random>
-#include <utility>
-#include <vector>
-
 #include "certificate/block_sums.h"
 #include "certificate/color_errors.h"
 #include "certificate/crowd_cells.h"
 #include "reference/frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,32 +1,29 @@
 // The scene that `splotchcl galaxy` writes, from all sides, and what evolve makes of galaxies.
-#include <gmock/gmock.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <sstream>
-
 #include "cli/lit_pictures.h"
 #include "cli/program.h"
 #include "damaged_hdf5.h"
 #include "galaxy/galaxy_picture.h"
 #include "splotchcl/image_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class GalaxyScene : public ::testing::Test {
  protected:
   void SetUp() override {
     SKIP_WITHOUT_DEVICE();
-    write_image(folder_ / "spiral.exr", SpiralPicture().draw());
-    std::filesystem::create_directory(folder_ / "scenes");
-    const auto made = splotchcl_in(folder_,
-                                   "galaxy spiral.exr -o m.hdf5 --scene scenes/m.toml --size 16 "
-                                   "--disk-stars 20000 --bulge-stars 10000");
-    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const std::string spiral = folder_ / "spiral.exr";
+    write_image(spiral, SpiralPicture().draw());
+    copy_into(folder_, galaxy_of(spiral));
+  }
+
+  // Made once, of the picture that each test has.
+  static const TemporaryFolder& galaxy_of(const std::string& picture) {
+    static const TemporaryFolder& made = folder_after(
+        "mkdir scenes && \"$splotchcl\" galaxy '" + picture +
+        "' -o m.hdf5 --scene scenes/m.toml --size 16 --disk-stars 20000 --bulge-stars 10000");
+    return made;
   }
 
   // Tilted by so many degrees: 0 is face-on.

@@ -1,24 +1,12 @@
 // Data larger than memory, in the long tests alone: 200 million particles in 16 files within 1.5
 // GB, and a column of more than 2 GiB.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <hdf5.h>
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <cstring>
-#include <fstream>
-#include <string>
-#include <vector>
-
 #include "cli/program.h"
-#include "long_tests.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 #define SKIP_UNLESS_LONG() \
   if (!test::long_tests()) GTEST_SKIP() << "gigabytes of particles: SPLOTCHCL_LONG_TESTS=1"

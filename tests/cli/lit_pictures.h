@@ -1,12 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-
 #include "splotchcl/image.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

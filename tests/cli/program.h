@@ -1,14 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <string>
-
-#include "paths.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 
@@ -35,6 +29,26 @@ inline ProgramResult run_in(const TemporaryFolder& folder, const std::string& co
 // Runs the program with these arguments, which the shell splits.
 inline ProgramResult splotchcl_in(const TemporaryFolder& folder, const std::string& arguments) {
   return run_in(folder, "\"$splotchcl\" " + arguments);
+}
+
+// A folder in which this was run, once for all tests: to be copied.
+inline const TemporaryFolder& folder_after(const std::string& command) {
+  static std::map<std::string, TemporaryFolder> folders;
+  const auto [place, is_new] =
+      folders.try_emplace(command, "made" + std::to_string(folders.size()));
+  if (is_new) {
+    const ProgramResult made = run_in(place->second, command);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+  }
+  return place->second;
+}
+inline void copy_into(const TemporaryFolder& folder, const TemporaryFolder& made) {
+  EXPECT_EQ(run_in(folder, "cp -a '" + made.path().string() + "/.' .").exit_code, 0);
+}
+
+// What the program makes with these arguments.
+inline std::filesystem::path made_once(const std::string& arguments) {
+  return folder_after("\"$splotchcl\" " + arguments + " -o made") / "made";
 }
 
 inline bool is_one_line(const std::string& text) {

@@ -1,20 +1,20 @@
-// What render draws, pixel by pixel; what it answers is told by sessions.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
+// What render draws, pixel by pixel, with trees and without; what it answers is told by sessions.
+#include <nlohmann/json.hpp>
 
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
+
+// What render draws, pixel by pixel; what it answers is told by sessions.
 
 class Render : public ::testing::Test {
  protected:
   void SetUp() override {
     SKIP_WITHOUT_DEVICE();
-    ASSERT_EQ(splotchcl_in(folder_, "generate universe -o u --particles 20000").exit_code, 0);
+    std::filesystem::copy(made_once("generate universe --particles 20000"), folder_ / "u");
   }
   Image picture(const std::string& arguments) {
     const ProgramResult result = splotchcl_in(folder_, "render u " + arguments + " -o a.exr");
@@ -63,6 +63,53 @@ TEST_F(Render, DrawsAPartOfTheParticlesAsBrightAsAll) {
   // The exposure is chosen anew from the particles that are left, which are noisier.
   for (const char* const option : {"--every 5", "--max-particles 4000"})
     EXPECT_NEAR(mean_light(picture(all + option)) / light, 1, 0.3) << option;
+}
+
+// Trees of merged particles, from the command that makes them to what is told of a picture.
+
+class Trees : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    SKIP_WITHOUT_DEVICE();
+    copy_into(folder_, folder_after("\"$splotchcl\" generate universe --particles 100000 -o u && "
+                                    "\"$splotchcl\" tree u"));
+  }
+  ProgramResult render(const std::string& arguments) const {
+    return splotchcl_in(folder_,
+                        "render u --set kernel.footprint=0.5 --size 24x16 "
+                        "--tolerance 0.02 -o u.png " +
+                            arguments);
+  }
+  nlohmann::json stats() const {
+    return nlohmann::json::parse(read_text(folder_ / "stats.json")).at("tree");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Trees, TellNodesBytesTheEstimateAndWhatWasFound) {
+  const ProgramResult drawn = render("--tree only --stats stats.json");
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  const nlohmann::json tree = stats();
+  ASSERT_FALSE(tree.is_null()) << drawn.err;
+  EXPECT_GT(tree.at("nodes"), 100);
+  EXPECT_LT(tree.at("nodes").get<int>() + tree.at("particles").get<int>(), 75000);
+  EXPECT_GT(tree.at("bytes"), 20 * tree.at("visited").get<int>());
+  EXPECT_GT(tree.at("estimate_of_promise"), 0.05);
+  EXPECT_GT(tree.at("found_of_promise"), 0);
+  EXPECT_LE(tree.at("found_of_promise"), 1);
+}
+
+TEST_F(Trees, AreExplainedWhereTheyAreUsed) {
+  EXPECT_THAT(render("--tree only --explain").out,
+              AllOf(HasSubstr("# tree: "), HasSubstr(" nodes and ")));
+  EXPECT_THAT(render("--tree never --explain").out, Not(HasSubstr("# tree: ")));
+  EXPECT_THAT(render("--tree only --explain --certify").out, Not(HasSubstr("# tree: ")));
+}
+
+TEST_F(Trees, AreNotUsedWhereTheSceneSaysNever) {
+  ASSERT_EQ(render("--tree never --stats stats.json").exit_code, 0);
+  EXPECT_TRUE(stats().is_null());
 }
 
 }  // namespace

@@ -1,16 +1,11 @@
 #include "common/crash_guard.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <exception>
 
 #include "common/quiet_errors.h"
 #include "common/unfinished_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

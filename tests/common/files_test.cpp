@@ -1,18 +1,16 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+// Files: how they are written, and changes while they are used.
 #include <sys/prctl.h>
 
 #include <chrono>
-#include <fstream>
 
+#include "common/file_identity.h"
 #include "common/mapped_file.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "common/unfinished_name.h"
-#include "splotchcl/error.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -220,5 +218,51 @@ TEST(MappedFile, RefusesAFolder) {
   EXPECT_THROW(MappedFile::open("."), DataError);
 }
 
+class WatchedFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write("a");
+    watched_.add(path_);
+  }
+  void write(const char* text) const { std::ofstream(path_, std::ios::app) << text; }
+  void replace() const {
+    std::ofstream(folder_ / "other") << "another file";
+    std::filesystem::rename(folder_ / "other", path_);
+  }
+
+  TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_ / "file";
+  WatchedFiles watched_;
+};
+
+TEST_F(WatchedFile, ThatStaysIsNoError) {
+  EXPECT_NO_THROW(watched_.check());
+  EXPECT_NO_THROW(watched_.check_in_place());
+  EXPECT_EQ(watched_.unchanged_during([] { return 7; }), 7);
+}
+
+TEST_F(WatchedFile, ThatIsWrittenToIsAnError) {
+  write("b");
+  EXPECT_THROW(watched_.check(), DataError);
+  EXPECT_THROW(watched_.check_in_place(), DataError);
+}
+
+TEST_F(WatchedFile, WhoseNameIsTakenByAnotherStaysWhatItIsForWhoHasItOpen) {
+  replace();
+  EXPECT_THROW(watched_.check(), DataError);
+  EXPECT_NO_THROW(watched_.check_in_place());
+}
+
+TEST_F(WatchedFile, ThatIsWrittenToWhileItIsUsedIsToldOfInPlaceOfWhatFollows) {
+  const auto fail = [] { throw DeviceError("counted other particles than before"); };
+  EXPECT_THROW(watched_.unchanged_during(fail), DeviceError);
+  const auto write_and_fail = [&] {
+    write("b");
+    fail();
+  };
+  EXPECT_THAT([&] { watched_.unchanged_during(write_and_fail); },
+              ThrowsMessage<DataError>(HasSubstr("changed while it was used")));
+}
+
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,10 +1,6 @@
 #include "common/utf8.h"
 
-#include <gtest/gtest.h>
-
-#include <string>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,13 +1,8 @@
 // The device's pictures against the oracle's, in every plan and both shapes of
 // compositing, within the tolerance that the frame promises.
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <tuple>
-
 #include "device/cases.h"
 #include "device/pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,13 +1,7 @@
 // A picture behind everything, which matter in front of it attenuates.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <tuple>
-
 #include "device/cases.h"
 #include "device/pictures.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

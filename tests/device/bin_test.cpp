@@ -1,15 +1,6 @@
 // The lists per tile hold every splat that matters to a pixel of the tile, in order.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "device/stages.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

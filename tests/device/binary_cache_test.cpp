@@ -1,13 +1,10 @@
 #include "device/opencl/binary_cache.h"
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
+
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

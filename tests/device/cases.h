@@ -1,13 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <tuple>
-
 #include "device/scenes.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

@@ -1,14 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <tuple>
-#include <vector>
-
 #include "device/cases.h"
 #include "device/pictures.h"
 #include "scene/particle_rules.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

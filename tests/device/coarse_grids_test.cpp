@@ -1,12 +1,7 @@
 // The grids of a level share out its widths: their splats are drawn narrower, or as stencils, and
 // blurred.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <string>
-
 #include "device/pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,18 +1,8 @@
 // What must not change a picture: crops, how particles are shared among components, bad
 // particles, earlier frames, numbers of threads.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <numeric>
-#include <string>
-#include <vector>
-
 #include "device/cases.h"
 #include "device/pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,20 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "device/cloud_frames.h"
 #include "device/pictures.h"
 #include "device/stages.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
 
 // Who waits for a picture is told how far it is, and may end it.
 
@@ -93,11 +83,11 @@ TEST_F(SerialTimes, HaveTheHostTheCheckAndCopies) {
 }
 
 TEST_F(SerialTimes, HaveTheScansOfASort) {
-  EXPECT_THAT(parts_of({Absorption::Kind::gray, 0.2}), testing::Contains("sort"));
+  EXPECT_THAT(parts_of({Absorption::Kind::gray, 0.2}), Contains("sort"));
 }
 
 TEST_F(SerialTimes, HaveNothingOfStagesThatAllCoresShare) {
-  EXPECT_THAT(parts_of({Absorption::Kind::none, 0}), testing::Not(testing::Contains("resolve")));
+  EXPECT_THAT(parts_of({Absorption::Kind::none, 0}), Not(Contains("resolve")));
 }
 
 // What a frame of the same data costs once there was one (docs/dev/performance.md, "Films").

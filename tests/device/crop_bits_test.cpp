@@ -1,12 +1,8 @@
 // A crop has the bits of the whole picture where both are drawn with the same plan, whatever of it
 // is drawn.
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "device/cases.h"
 #include "device/pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,14 +1,8 @@
 // Every kernel in every variant that frames may ask for, on scenes so small that also a
 // simulator ends them soon (scripts/test --icd oclgrind).
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "device/cases.h"
 #include "device/pictures.h"
-#include "long_tests.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

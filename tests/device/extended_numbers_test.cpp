@@ -1,16 +1,10 @@
 // The functions of kernels/extended/extended.cl and precise.cl keep the errors that their comments
 // name, in double precision and in pairs of floats.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "device/evenly_spread.h"
 #include "device/opencl/launch.h"
 #include "device/stages.h"
 #include "reference/frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,16 +1,9 @@
 // The shape for GPUs: how it uses the device, and its own pieces.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <numeric>
-#include <vector>
-
 #include "device/cases.h"
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "device/stages/group_binner.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

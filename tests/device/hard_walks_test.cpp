@@ -1,13 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <optional>
-#include <string>
-#include <tuple>
-#include <vector>
-
 #include "device/cases.h"
 #include "device/pictures.h"
 #include "reference/frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,19 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <memory>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
-
 #include "device/counted_column.h"
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "frames/random_frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

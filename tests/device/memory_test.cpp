@@ -1,17 +1,10 @@
-#include <gtest/gtest.h>
 #include <malloc.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <numeric>
-#include <optional>
-#include <set>
-#include <vector>
 
 #include "device/opencl/buffer_pool.h"
 #include "device/opencl/large_pages.h"
 #include "device/opencl/staged_copies.h"
 #include "device/stages.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

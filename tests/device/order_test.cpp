@@ -1,10 +1,6 @@
 // Project and sort together give the oracle's order, index for index.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <vector>
-
 #include "device/stages.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,17 +1,10 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <memory>
-#include <utility>
-
 #include "device/pipeline.h"
 #include "device/scenes.h"
 #include "splotchcl/image.h"
 #include "splotchcl/renderer.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

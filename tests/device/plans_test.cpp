@@ -1,11 +1,7 @@
 // One frame drawn by different plans, shapes of compositing and tolerances.
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "device/cases.h"
 #include "device/pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

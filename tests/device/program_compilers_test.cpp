@@ -1,23 +1,14 @@
 // Programs that another process compiles: here the other process is a pretence.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
 #include <future>
-#include <map>
-#include <memory>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
-#include <utility>
-#include <vector>
 
 #include "device/opencl/local_compiler.h"
 #include "device/opencl/program_text.h"
 #include "device/opencl/shared_work.h"
 #include "device/pictures.h"
 #include "splotchcl/program_compiler.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,17 +1,11 @@
 // Programs that declare the language's functions themselves (kernels/common/builtins.h).
 #include "device/opencl/program_text.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <set>
-#include <string>
-#include <vector>
-
 #include "device/opencl/launch.h"
 #include "device/opencl/program_build.h"
 #include "device/stages.h"
 #include "device/stages/stage_programs.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
@@ -82,7 +76,7 @@ class ShortTexts : public StageTest {
   }
   // What PoCL has compiled before comes from its cache, without what it said of it.
   static void expect_no_warnings(const compute::program& program) {
-    EXPECT_THAT(program.build_log(), testing::Not(testing::HasSubstr("warning:")));
+    EXPECT_THAT(program.build_log(), Not(HasSubstr("warning:")));
   }
   static std::vector<Frame> frames() {
     const Absorption none{Absorption::Kind::none, 0}, gray{Absorption::Kind::gray, 1};

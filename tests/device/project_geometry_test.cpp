@@ -1,13 +1,8 @@
 // Centres, widths, weights and colours of the stage `project` against the oracle's, within
 // bounds that follow from the roundings of its operations in single precision.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "device/stages.h"
 #include "scene/particle_rules.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,12 +1,6 @@
 // The sort keys of the stage `project` are the oracle's, bit for bit.
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "device/stages.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

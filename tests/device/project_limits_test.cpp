@@ -1,14 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "device/stages.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

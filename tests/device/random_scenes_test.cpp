@@ -1,12 +1,7 @@
 // Random small scenes over all settings keep their tolerance.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "frames/random_frames.h"
 #include "frames/random_promise.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,18 +1,10 @@
 // The functions of kernels/composite/gaussian.cl and shape.cl, and log2_positive() of
 // kernels/common/lanes.cl, keep the errors that their comments name.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "device/evenly_spread.h"
 #include "device/opencl/launch.h"
 #include "device/stages.h"
 #include "scene/plan/splat_limits.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,11 +1,6 @@
 // Ordered frames in slabs: wide clouds are added up and laid among the narrow ones.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include "device/pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,16 +1,7 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <numeric>
-#include <utility>
-#include <vector>
-
 #include "device/stages.h"
 #include "device/stages/group_scan.h"
 #include "device/stages/sorter.h"
-#include "long_tests.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

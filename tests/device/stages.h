@@ -1,21 +1,11 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <memory>
-#include <utility>
-#include <vector>
-
 #include "device/opencl/device_context.h"
 #include "device/pipeline.h"
 #include "device/scenes.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

@@ -1,13 +1,9 @@
 // Renderers may be made and used by several threads at once, one thread each.
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "device/opencl/device_context.h"
 #include "device/pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

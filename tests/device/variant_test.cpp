@@ -2,22 +2,13 @@
 // them.
 #include "device/frame/variant.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cctype>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <set>
-#include <string>
-#include <vector>
 
 #include "device/opencl/launch.h"
 #include "device/stages.h"
 #include "device/stages/stage_programs.h"
 #include "matches.h"
-#include "paths.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,14 +1,8 @@
 // Particles with red, green and blue of their own, and palettes of their own for absorption.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <set>
-#include <vector>
-
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "splotchcl/plan.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,18 +1,12 @@
 // Ordered frames that have no room in one piece, and columns that have none in one buffer: the
 // same bits as in one piece.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <memory>
-#include <vector>
-
 #include "device/cloud_frames.h"
 #include "device/counted_column.h"
 #include "device/frame/splat_capacity.h"
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "frames/random_frames.h"
-#include "long_tests.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <random>
-#include <vector>
-
 #include "device/opencl/launch.h"
 #include "device/stages.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -2,13 +2,7 @@
 // the program can be compared bit for bit on one machine (scripts/digests).
 // usage: picture_digests [--scene NAME FILE KEY=VALUE... ]...
 // Without scenes: 200 random scenes, both shapes, tolerances from 1e-2 to 0.
-#include <cstdint>
 #include <cstdio>
-#include <cstring>
-#include <exception>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "frames/random_frames.h"
 #include "splotchcl/load.h"
@@ -17,6 +11,7 @@
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,21 +1,11 @@
 // Every command whose library crashes on a file: one line, exit code 1, and nothing is half
 // written.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "cli/program.h"
 #include "splotchcl/image_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class Crashes : public ::testing::Test {
  protected:

@@ -1,21 +1,9 @@
 // Every command while one call of the system fails, whichever: it ends in time, with one line and
 // exit code 1 or as if nothing had been, nothing is half written, and the next run is whole.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstring>
-#include <fstream>
-#include <iostream>
-#include <random>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "cli/program.h"
 #include "faults/counted_calls.h"
 #include "faults/files_in.h"
-#include "long_tests.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

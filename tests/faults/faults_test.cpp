@@ -1,18 +1,10 @@
 // Renders and films while a call of the system fails, or memory runs out: one line says so, and
 // what is written is whole or not there.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <set>
-
 #include "cli/program.h"
-#include "long_tests.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class Faults : public ::testing::Test {
  protected:

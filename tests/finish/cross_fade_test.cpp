@@ -1,24 +1,15 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-
 #include "finish/finish_picture.h"
 #include "finish/finish_pictures.h"
 #include "finish/joined_pictures.h"
 #include "pictures/other_scenes.h"
-#include "splotchcl/error.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class CrossFadeTest : public ::testing::Test {
  protected:
@@ -37,12 +28,7 @@ class CrossFadeTest : public ::testing::Test {
                             "finish.cross_fade.amount=" + std::to_string(amount)});
   }
   std::string refusal(const Scene& scene) const {
-    try {
-      check_finish(scene, {});
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "not refused";
+    return refusal_by<UsageError>([&] { check_finish(scene, {}); });
   }
 
  private:

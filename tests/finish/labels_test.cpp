@@ -1,24 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "finish/finish_pictures.h"
 #include "finish/overlay.h"
 #include "finish/placeholders.h"
 #include "finish/ticks.h"
 #include "image/text.h"
-#include "paths.h"
 #include "scene/scalar_map.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const Font& font() {
   static const Font font("DejaVuSans");
@@ -87,12 +76,7 @@ TEST(Text, TurnedHasItsBoxTurned) {
 }
 
 TEST(Text, WithLettersThatTheFontDoesNotHaveIsRefused) {
-  try {
-    font().draw("銀河", 20);
-    FAIL() << "expected it to be refused";
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("U+9280"));
-  }
+  EXPECT_THAT([&] { font().draw("銀河", 20); }, ThrowsMessage<UsageError>(HasSubstr("U+9280")));
 }
 
 TEST(Text, ThatIsNotUtf8IsRefused) {
@@ -206,24 +190,16 @@ TEST(Layout, PutsThingsOfOnePlaceBesideEachOther) {
 
 TEST(Layout, RefusesWhatDoesNotFitAndNamesIt) {
   Layout layout(1600, 1000);
-  try {
-    layout.place(Anchor::top, 1700, 20, "finish.title");
-    FAIL() << "expected it to be refused";
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("finish.title: takes 1700 x 20 pixels"));
-  }
+  EXPECT_THAT([&] { layout.place(Anchor::top, 1700, 20, "finish.title"); },
+              ThrowsMessage<UsageError>(HasSubstr("finish.title: takes 1700 x 20 pixels")));
 }
 
 TEST(Layout, RefusesToPutOneThingUponAnother) {
   Layout layout(1600, 1000);
   layout.place(Anchor::bottom_right, 300, 400, "finish.inset");
-  try {
-    layout.place(Anchor::right, 100, 400, "finish.color_bar");
-    FAIL() << "expected it to be refused";
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(),
-                ::testing::HasSubstr("finish.color_bar: would lie upon finish.inset"));
-  }
+  EXPECT_THAT(
+      [&] { layout.place(Anchor::right, 100, 400, "finish.color_bar"); },
+      ThrowsMessage<UsageError>(HasSubstr("finish.color_bar: would lie upon finish.inset")));
 }
 
 TEST(Canvas, CoversPartsOfPixelsInPart) {

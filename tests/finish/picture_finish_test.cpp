@@ -1,28 +1,14 @@
 // Pictures as they leave the finishing step, pixel by pixel.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
 #include "finish/finish_pictures.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-
 const ScalarMap zero_to_one = {Scaling::linear, 0, 1};
 
 std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "not refused";
+  return refusal_by<UsageError>([&] { action(); });
 }
 
 // The smallest rectangle that holds all pixels for which `is_inside` says so.

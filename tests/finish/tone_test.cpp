@@ -1,13 +1,7 @@
 #include "finish/tone.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "finish/finish_pictures.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

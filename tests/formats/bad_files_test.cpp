@@ -2,8 +2,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <limits>
-
 #include "common/shrink_guard.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
@@ -11,14 +9,10 @@
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
-using namespace splotchcl::test;
 
 // Whatever is given as a snapshot and is none, or is damaged, is refused with one line that
 // says so. Damage within a format has its tests beside the format.
@@ -130,12 +124,8 @@ class BadParticles : public ::testing::Test {
         "name = 'gas'\n",
         "scene");
     std::vector<std::string> notes;
-    try {
-      load_frame(scene, *open_snapshot(folder_ / "snap"), notes);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>(
+        [&] { load_frame(scene, *open_snapshot(folder_ / "snap"), notes); });
   }
   const TemporaryFolder folder_;
 };
@@ -178,7 +168,7 @@ TEST(ShrinkingFiles, AreRefusedWhenTheNextFieldIsRead) {
   const auto snapshot = open_snapshot(folder / "snap");
   std::filesystem::resize_file(folder / "snap", 5000);
   EXPECT_THAT([&] { snapshot->read(1, "position"); },
-              ::testing::ThrowsMessage<DataError>(
+              ThrowsMessage<DataError>(
                   HasSubstr("became shorter while it was read: found 5000 bytes, expected")));
   EXPECT_THROW(snapshot->read_ids(1), DataError);
 }
@@ -208,4 +198,4 @@ TEST(ShrinkingFilesDeathTest, EndTheProgramWithAMessageWhenTheyAreInUse) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

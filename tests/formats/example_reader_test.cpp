@@ -10,8 +10,6 @@ const SnapshotFormat& points_format();
 namespace {
 
 using namespace splotchcl::test;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 std::string points_file() {
   const std::uint32_t count = 2;

@@ -4,13 +4,9 @@
 #include "formats/snapshot_checks.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::Optional;
 
 class HaloLists : public ::testing::Test {
@@ -26,12 +22,7 @@ class HaloLists : public ::testing::Test {
     return read_halo(path, number, 1).ids;
   }
   static std::string refusal_of_halo(const std::filesystem::path& path, std::uint64_t number) {
-    try {
-      read_halo(path, number, 1);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>([&] { read_halo(path, number, 1); });
   }
   const TemporaryFolder folder_;
 };
@@ -175,4 +166,4 @@ TEST_F(HaloLists, OfTwoThatMayBeMeantNoneIsTaken) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

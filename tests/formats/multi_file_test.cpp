@@ -6,12 +6,8 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 // The formats that sets come in; 3 is HDF5, as in Gadget's own parameter files.
 class MultiFile : public ::testing::TestWithParam<int> {
@@ -288,4 +284,4 @@ TEST(SnapshotName, AFileOfAnotherKindIsRefusedWithItsFirstBytes) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

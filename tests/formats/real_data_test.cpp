@@ -1,19 +1,13 @@
 // Real snapshots of public codes. What is expected of them was found with other programs.
-#include <cmath>
-
 #include "formats/snapshot_checks.h"
-#include "paths.h"
 #include "real_snapshots.h"
 #include "smoothing/smoothing_lengths.h"
 #include "snapshot/field_statistics.h"
 #include "splotchcl/snapshot_file.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::HasSubstr;
 
 class RealSnapshots : public ::testing::Test {
  protected:
@@ -156,7 +150,7 @@ TEST_F(RealSnapshots, ATypeWithoutCoordinatesIsLeftOut) {
   const auto snapshot = open("broken/no_coordinates.hdf5");
   EXPECT_EQ(snapshot->info().types.size(), 1U);
   EXPECT_EQ(snapshot->info().find_type(1)->count, 9261U);
-  EXPECT_THAT(snapshot->info().notes, ::testing::Contains(HasSubstr("PartType0 is left out")));
+  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("PartType0 is left out")));
 }
 
 TEST_F(RealSnapshots, SwiftIsReadWithTheSupportOfItsKernel) {
@@ -194,4 +188,4 @@ TEST_F(RealSnapshots, LengthsFromDensityAreNearThoseOfTheFile) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,15 +1,9 @@
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
 #include "formats/snapshot_writer.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 
@@ -70,12 +64,7 @@ inline void expect_columns_of(const Snapshot& actual, const TestSnapshot& expect
 
 // What opening says about a file that must be refused; empty when it is not refused.
 inline std::string refusal(const std::filesystem::path& path) {
-  try {
-    open_snapshot(path);
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return {};
+  return refusal_by<DataError>([&] { open_snapshot(path); });
 }
 
 }  // namespace splotchcl::test

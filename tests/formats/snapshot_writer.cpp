@@ -1,9 +1,6 @@
 #include "formats/snapshot_writer.h"
 
-#include <algorithm>
-#include <cstring>
-#include <fstream>
-#include <stdexcept>
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,22 +1,12 @@
 #include "formats/stored_values.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <limits>
-#include <set>
-
 #include "formats/position_origin.h"
 #include "formats/snapshot_writer.h"
 #include "scene/particle_columns.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using namespace splotchcl::test;
 
 std::vector<float> values_of(const Column& column) {
   return {column.data(), column.data() + column.size()};
@@ -174,4 +164,4 @@ TEST(PositionOrigin, IsZeroWhenNoPositionIsFinite) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

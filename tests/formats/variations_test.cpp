@@ -1,21 +1,11 @@
 // What users' files vary in, where it is more than a matter of one format.
-#include <algorithm>
-#include <array>
-#include <cstring>
-#include <fstream>
-
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_checks.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 void append_record(std::string& bytes, const std::string& content) {
   const auto length = static_cast<std::uint32_t>(content.size());
@@ -108,7 +98,7 @@ TEST(GadgetVariations, Format1HasNoMassesWhereTheTableHasThemAll) {
   EXPECT_EQ(snapshot->info().find_type(0)->table_mass, 2);
   expect_field(*snapshot, "internal_energy", written, "U");
   expect_field(*snapshot, "smoothing_length", written, "HSML");
-  EXPECT_THAT(snapshot->info().notes, ::testing::IsEmpty());
+  EXPECT_THAT(snapshot->info().notes, IsEmpty());
 }
 
 TEST(GadgetVariations, Format1WithoutIdentifiersIsToldByTheValues) {
@@ -227,4 +217,4 @@ TEST_P(SetsWithAnEmptyType, AreReadByAnyNameOfTheSet) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,27 +1,15 @@
 // Formulas on fields: what they mean, in which unit, and what is none.
 #include "formula/formula.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <map>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "formula/formula_functions.h"
 #include "formula/formula_units.h"
 #include "formula/formula_values.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -246,12 +234,9 @@ TEST(FormulaUnits, ThatDifferAreNotAddedNorCompared) {
                            "T > 1 ? T : rho", "hypot(rho, T)", "T * r - rho * r"}) {
     EXPECT_THROW(unit(text), UsageError) << text;
   }
-  try {
-    unit("2 * T + rho > 3");
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), AllOf(HasSubstr("here: found 2 * T in K beside rho in g/cm^3")));
-  }
+  EXPECT_THAT(
+      [&] { unit("2 * T + rho > 3"); },
+      ThrowsMessage<UsageError>(AllOf(HasSubstr("here: found 2 * T in K beside rho in g/cm^3"))));
 }
 
 TEST(FormulaUnits, OfOneDimensionButNotOneSizeAreRefusedToo) {
@@ -275,12 +260,7 @@ double number_in(const std::string& text) {
 }
 
 std::string refusal_of_units(const std::string& text) {
-  try {
-    number_in(text);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
+  return refusal_by<UsageError>([&] { number_in(text); });
 }
 
 TEST(NumbersWithUnits, AreConvertedToWhatTheyAreComparedWith) {
@@ -304,7 +284,7 @@ TEST(NumbersWithUnits, AreRefusedWhereTheFieldsUnitHasAnUnknownFactor) {
       [&] {
         with_converted_numbers(Formula::parse("r < 2 Mpc", "here"), in_units_of_h, {1, 0}, "here");
       },
-      ::testing::ThrowsMessage<UsageError>(HasSubstr("h")));
+      ThrowsMessage<UsageError>(HasSubstr("h")));
   EXPECT_NO_THROW(
       with_converted_numbers(Formula::parse("r < 2", "here"), in_units_of_h, {1, 0}, "here"));
 }

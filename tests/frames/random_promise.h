@@ -1,17 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "device/pictures.h"
-#include "long_tests.h"
+#include "testing.h"
 
 // Random frames of one kind keep their promises: each against the oracle, in the variants that the
 // test names.

@@ -1,14 +1,7 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <vector>
-
 #include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
 #include "galaxy/light_map.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,22 +1,14 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "galaxy/dust_map.h"
 #include "galaxy/galaxy_frame.h"
 #include "galaxy/galaxy_picture.h"
 #include "snapshot/field_names.h"
-#include "splotchcl/error.h"
 #include "splotchcl/rotation_curve.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 std::vector<float> values(const Column& column) {
   return {column.data(), column.data() + column.size()};
@@ -71,12 +63,7 @@ TEST(GalaxyFile, NothingIsLeftWhereItCannotBeWritten) {
 }
 
 std::string refusal_of_curve(const std::string& text) {
-  try {
-    parse_rotation_curve(text, "curve.txt");
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return refusal_by<DataError>([&] { parse_rotation_curve(text, "curve.txt"); });
 }
 
 TEST(RotationCurve, DefaultIsLinearInsideAndFlatOutside) {

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "galaxy/galaxy_picture.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

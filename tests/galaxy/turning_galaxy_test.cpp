@@ -1,16 +1,10 @@
 #include "splotchcl/turning_galaxy.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "galaxy/galaxy_picture.h"
 #include "index/snapshot_index.h"
 #include "splotchcl/array_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
@@ -182,7 +176,7 @@ TEST(TurningGalaxy, ArmsHoldUntilTheirPitchHasHalved) {
   EXPECT_NEAR(*found / expected, 1, 0.03);
   EXPECT_FALSE(turning_warning(*found, found));
   ASSERT_TRUE(turning_warning(2 * *found, found));
-  EXPECT_THAT(*turning_warning(2 * *found, found), ::testing::HasSubstr("wind up"));
+  EXPECT_THAT(*turning_warning(2 * *found, found), HasSubstr("wind up"));
 }
 
 TEST(TurningGalaxy, ArmsOfASolidBodyAndOfAPatternHoldForEver) {

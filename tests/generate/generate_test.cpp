@@ -1,31 +1,18 @@
 #include "splotchcl/generate.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "generate/random.h"
 #include "generate/waves.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using splotchcl::test::read_text;
-using splotchcl::test::TemporaryFolder;
-using ::testing::AllOf;
-using ::testing::Each;
 using ::testing::Ge;
 using ::testing::Gt;
-using ::testing::HasSubstr;
 using ::testing::Le;
 using ::testing::Lt;
-using ::testing::ThrowsMessage;
 
 GenerateSettings small(std::uint64_t seed = 1) {
   return {5000, 0.2, seed};
@@ -179,4 +166,4 @@ TEST(WriteGadget2, NamesAFolderThatIsMissing) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,13 +1,8 @@
 // Shapes of haloes and what lies within them.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "generate/halo_profile.h"
 #include "generate/web.h"
 #include "splotchcl/generate.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

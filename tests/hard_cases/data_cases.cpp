@@ -1,13 +1,7 @@
 // Numbers of particles that counters and buffers may not hold, and values that are none.
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <utility>
-#include <vector>
-
 #include "hard_cases/hard_cases.h"
 #include "hard_cases/hard_frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

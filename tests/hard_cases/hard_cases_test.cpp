@@ -2,19 +2,10 @@
 // exact picture; a table of the measured errors at the end.
 #include "hard_cases/hard_cases.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include "device/scenes.h"
 #include "hard_cases/error_table.h"
-#include "long_tests.h"
 #include "splotchcl/renderer.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

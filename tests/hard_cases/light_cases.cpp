@@ -1,9 +1,7 @@
 // Extremes of emission and absorption.
-#include <cmath>
-#include <string>
-
 #include "hard_cases/hard_cases.h"
 #include "hard_cases/hard_frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,11 +1,7 @@
 // Depths and keys that sorting may get wrong.
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-
 #include "hard_cases/hard_cases.h"
 #include "hard_cases/hard_frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,11 +1,9 @@
 // Scenes that the adversary found, or that follow one of its findings: each broke the promise of
 // the tolerance once (docs/dev/contributing.md).
-#include <string>
-#include <utility>
-
 #include "adversary/trial.h"
 #include "adversary/trial_frame.h"
 #include "hard_cases/hard_cases.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,9 +1,7 @@
 // Widths of clouds from far below a pixel to far beyond the picture, and where discs end.
-#include <cmath>
-#include <string>
-
 #include "hard_cases/hard_cases.h"
 #include "hard_cases/hard_frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

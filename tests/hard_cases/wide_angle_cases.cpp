@@ -1,15 +1,11 @@
 // Pictures in all directions with small tolerances: single precision places their clouds a
 // rounding of the direction beside where they are, near poles and behind a dome much more.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <optional>
-
 #include "hard_cases/hard_cases.h"
 #include "hard_cases/hard_frames.h"
 #include "scene/projection.h"
 #include "splotchcl/cube.h"
 #include "splotchcl/stereo.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

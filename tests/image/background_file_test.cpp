@@ -1,18 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "finish/finish_pictures.h"
 #include "image/background_image.h"
-#include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class BackgroundFile : public ::testing::Test {
  protected:
@@ -59,12 +51,8 @@ TEST_F(BackgroundFile, OfAnotherShapeFillsThePicture) {
 TEST_F(BackgroundFile, ThatIsMissingOrNegativeIsRefused) {
   EXPECT_THROW(load_background_image(path("missing.png"), 6, 4, 1), DataError);
   write_image(path("a.exr"), plain_image(6, 4, {0.25F, -3, 0}));
-  try {
-    load_background_image(path("a.exr"), 6, 4, 1);
-    FAIL() << "expected it to be refused";
-  } catch (const DataError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("a.exr: found the light -3"));
-  }
+  EXPECT_THAT([&] { load_background_image(path("a.exr"), 6, 4, 1); },
+              ThrowsMessage<DataError>(HasSubstr("a.exr: found the light -3")));
 }
 
 }  // namespace

@@ -1,28 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "image/blue_noise.h"
 #include "image/void_and_cluster.h"
-#include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using splotchcl::test::read_text;
-using splotchcl::test::TemporaryFolder;
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::ThrowsMessage;
 
 // PNG and TIFF files of 16 bits, and what files say of their colors.
 
@@ -289,4 +271,4 @@ TEST(DisplayBytes, RefuseWhatIsNotANumber) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,18 +1,10 @@
 // Pictures whose colour profile says that it has a text far outside of it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <zlib.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <string>
-#include <vector>
 
 #include "image/picture_encoders.h"
 #include "image/png_chunks.h"
 #include "splotchcl/image_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

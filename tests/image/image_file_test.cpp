@@ -1,8 +1,8 @@
 #include "splotchcl/image_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
+
+#include "testing.h"
 // GCC says so by a macro, clang by a feature.
 #ifdef __has_feature
 #if __has_feature(address_sanitizer)
@@ -13,24 +13,12 @@
 #include <sanitizer/lsan_interface.h>
 #endif
 
-#include <cmath>
 #include <csignal>
-#include <limits>
-#include <optional>
-#include <string>
 
 #include "common/unfinished_file.h"
-#include "splotchcl/error.h"
-#include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using splotchcl::test::read_text;
-using splotchcl::test::TemporaryFolder;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 // Every value different, up to `brightest`.
 Image ramp(int width, int height, float brightest) {
@@ -367,4 +355,4 @@ TEST(UnfinishedFile, ReplacesWhatALinkPointsTo) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,31 +1,16 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <zlib.h>
-
-#include <cmath>
-#include <cstdint>
-#include <fstream>
-#include <map>
-#include <random>
-#include <string>
-#include <vector>
 
 #include "image/picture_encoders.h"
 #include "image/png_chunks.h"
 #include "image/png_file.h"
-#include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 using namespace std::string_literals;
-using splotchcl::test::read_text;
-using splotchcl::test::TemporaryFolder;
+using namespace test;
 
 // Pictures of a few bytes that claim to have 300 million pixels: their files are looked at before
 // memory is claimed for them.
@@ -124,8 +109,8 @@ TEST(ClaimedPixels, AreRefusedWhereTheFileCannotHoldThem) {
   for (const Claim& claim : claims()) {
     const auto path = folder / ("a." + claim.ending);
     std::ofstream(path, std::ios::binary) << claim.content;
-    EXPECT_THAT([&] { read_image(path); }, ::testing::ThrowsMessage<DataError>(::testing::HasSubstr(
-                                               "claims 20000x15000 pixels, which ")))
+    EXPECT_THAT([&] { read_image(path); },
+                ThrowsMessage<DataError>(HasSubstr("claims 20000x15000 pixels, which ")))
         << claim.ending;
   }
 }
@@ -144,8 +129,7 @@ TEST(CutPicture, OfDpxIsRefusedWhereItsReaderWouldNotNotice) {
   EXPECT_NO_THROW(read_image(path));
   for (const std::size_t missing : {1, 4, 64, 128}) {
     std::filesystem::resize_file(path, whole.size() - missing);
-    EXPECT_THAT([&] { read_image(path); },
-                ::testing::ThrowsMessage<DataError>(::testing::HasSubstr("the file is cut")))
+    EXPECT_THAT([&] { read_image(path); }, ThrowsMessage<DataError>(HasSubstr("the file is cut")))
         << missing;
   }
 }

@@ -1,25 +1,13 @@
 #include "index/snapshot_index.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <limits>
-#include <memory>
-#include <string>
 
 #include "formats/snapshot_writer.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 constexpr std::uint32_t gas_particles = 20000;  // two blocks, and a part of one
 
@@ -170,12 +158,8 @@ TEST_F(Index, IsNotUsedWithAnyByteOfABoxChanged) {
 TEST_F(Index, DoesNotOverwriteAnotherFile) {
   const auto snapshot = write(long_row());
   write_bytes(path(), "notes of a user");
-  try {
-    SnapshotIndex::make(*snapshot, {}).write(snapshot->info());
-    FAIL() << "it was overwritten";
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("found a file that is no index"));
-  }
+  EXPECT_THAT([&] { SnapshotIndex::make(*snapshot, {}).write(snapshot->info()); },
+              ThrowsMessage<UsageError>(HasSubstr("found a file that is no index")));
 }
 
 TEST_F(Index, IsNotMadeOfTables) {

@@ -1,23 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstring>
-#include <limits>
-#include <memory>
-#include <vector>
-
 #include "old_header_name.h"
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/splotchcl_c.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 constexpr const char* scene_text = R"(
 [image]

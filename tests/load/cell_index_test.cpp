@@ -1,26 +1,14 @@
 // The table of cells in SWIFT's files, which serves as an index.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <memory>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "formats/hdf5/hdf5_values.h"
 #include "load/component_boxes.h"
 #include "load/particles.h"
-#include "paths.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
 
-using splotchcl::test::write_attribute;
-using splotchcl::test::write_values;
+using namespace test;
 
 constexpr std::size_t cells = 4, particles_of_cell = 5000, particles = cells * particles_of_cell;
 constexpr double side = 100, cell_width = side / cells;

@@ -1,25 +1,16 @@
 // Boxes from an index beside a snapshot hold the particles of a component as the scene places them.
 #include "load/component_boxes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "index/snapshot_index.h"
 #include "load/particles.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class ComponentBoxes : public ::testing::Test {
  protected:
@@ -115,7 +106,7 @@ TEST_F(ComponentBoxes, OfAChangedFileAreNotUsedAndTold) {
       file, std::filesystem::last_write_time(file) + std::chrono::seconds(2));
   snapshot_ = open_snapshot(file);
   EXPECT_FALSE(load(gas()).boxes);
-  EXPECT_THAT(notes_, ::testing::Contains(HasSubstr("splotchcl index makes it anew")));
+  EXPECT_THAT(notes_, Contains(HasSubstr("splotchcl index makes it anew")));
 }
 
 }  // namespace

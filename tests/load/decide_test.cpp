@@ -1,21 +1,12 @@
 // The two steps from a scene to a frame: deciding what the scene leaves open, and loading.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "snapshot/memory_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using test::MemorySnapshot;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
 
 MemorySnapshot some_gas() {
@@ -88,12 +79,11 @@ TEST(Decide, SaysThatNothingIsDrawnToLessThanAMillionth) {
     scene.tolerance = tolerance;
     std::vector<std::string> notes;
     load_frame(scene, snapshot, notes);
-    const auto says_so =
-        ::testing::Contains(::testing::HasSubstr("found 1e-08, which is drawn as 0"));
+    const auto says_so = Contains(HasSubstr("found 1e-08, which is drawn as 0"));
     if (tolerance == 1e-8) {
       EXPECT_THAT(notes, says_so);
     } else {
-      EXPECT_THAT(notes, ::testing::Not(says_so));
+      EXPECT_THAT(notes, Not(says_so));
     }
   }
 }

@@ -1,23 +1,10 @@
 // Fields that follow from others, and the ranges of fields.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-
 #include "load/derived_fields.h"
 #include "load/particles.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 Component colored_by(const std::string& field) {
   Component component = gas();

@@ -1,20 +1,15 @@
 // Haloes of catalogs beside a snapshot's files.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "load/particles.h"
 #include "splotchcl/read_settings.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
 
 using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::HasSubstr;
 
 // Gas 37, dark matter 20, stars 11; the catalog has two haloes, of 30 and 5 particles of gas.
 class HaloSelection : public ::testing::Test {

@@ -1,22 +1,11 @@
 // From a scene and a snapshot to a frame: what is read, and how open numbers are decided.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "load/particles.h"
 #include "snapshot/memory_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 // A row of gas particles along x, all seen by the scene's camera.
 MemorySnapshot centered_gas_row(int count = 5) {
@@ -36,12 +25,7 @@ MemorySnapshot centered_gas_row(int count = 5) {
 }
 
 std::string refusal(const Scene& scene, const Snapshot& snapshot) {
-  try {
-    load(scene, snapshot);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by<Error>([&] { load(scene, snapshot); });
 }
 
 std::vector<float> values(const Column& column, std::size_t count) {

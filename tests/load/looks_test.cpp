@@ -1,18 +1,10 @@
 // What the looks make of a snapshot.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
-
 #include "snapshot/memory_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,30 +1,20 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <cmath>
 #include <csignal>
-#include <fstream>
-#include <random>
 
 #include "formats/snapshot_checks.h"
 #include "load/particles.h"
-#include "paths.h"
 #include "smoothing/smoothing_lengths.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/load.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
 
-using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::Not;
 using namespace splotchcl::test;
 
 // As long as it lives no file of this process gets a byte.

@@ -1,13 +1,8 @@
 // Several kinds of matter in one ordered frame, from scene to picture.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "device/pictures.h"
 #include "load/particles.h"
 #include "splotchcl/plan.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,24 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
 #include "load/periodic.h"
 #include "load/placement.h"
 #include "snapshot/memory_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/snapshot.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 double squared_distance(const std::array<double, 3>& a, const Vec3& b) {
   double sum = 0;

@@ -1,26 +1,15 @@
 // Particles of a snapshot of their own, put into a scene.
 #include "load/placement.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <utility>
-
 #include "device/pictures.h"
 #include "load/particles.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 void expect_near(const Vec3& a, const Vec3& b, double error) {
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -1,30 +1,17 @@
 // The keys of components' particles in scene files.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "load/particles.h"
 #include "splotchcl/scene_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 Component parse(const std::string& lines) {
   return parse_scene("snapshot = \"s\"\n[[component]]\n" + lines, "scene.toml").components.at(0);
 }
 
 std::string refused(const std::string& lines) {
-  try {
-    parse(lines);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by<UsageError>([&] { parse(lines); });
 }
 
 TEST(ParticleKeys, SelectByConditionsPlacesAndIds) {

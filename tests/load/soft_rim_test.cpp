@@ -1,22 +1,12 @@
 // Spheres whose particles fade towards their surface, and components that are dark.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "load/particles.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/map.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 // Gas at 0, 1, 2, ... along x with masses 1, 2, 3, ...
 Component within(double center, double radius, double rim) {
@@ -88,7 +78,7 @@ TEST(DarkComponent, ReadsAndDrawsNothing) {
   std::vector<std::string> notes;
   const Frame frame = load_frame(scene_of({dark}), snapshot, notes);
   EXPECT_EQ(frame.components.at(0).particles.count, 0U);
-  EXPECT_THAT(snapshot.fields_read(), ::testing::IsEmpty());
+  EXPECT_THAT(snapshot.fields_read(), IsEmpty());
 }
 
 TEST(DarkComponent, IsDrawnWhereItStillAbsorbs) {

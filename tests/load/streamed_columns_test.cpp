@@ -1,16 +1,11 @@
 // Columns that are too large for memory are made as they are wanted: what is loaded of them has the
 // values of columns that are held.
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <optional>
-#include <vector>
-
 #include "load/derived_fields.h"
 #include "load/particles.h"
 #include "scene/particle_columns.h"
 #include "scene/statistics.h"
 #include "splotchcl/load.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

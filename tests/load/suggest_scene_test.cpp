@@ -1,22 +1,10 @@
 // The scene that is drawn when only a snapshot is given.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
-#include <memory>
-#include <numeric>
-#include <random>
-
-#include "paths.h"
 #include "snapshot/memory_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/snapshot_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
@@ -360,11 +348,13 @@ float darkest_channel(const float* pixel) {
   return std::min({pixel[0], pixel[1], pixel[2]});
 }
 
-std::vector<float> drawn(const Scene& scene, const Snapshot& snapshot,
-                         const OfPixel& value = brightest_channel) {
+Image drawn(const Scene& scene, const Snapshot& snapshot) {
   std::vector<std::string> notes;
   const auto draw = [](const Frame& frame) { return reference::render(frame).to_float(); };
-  const Image image = draw_pictures(scene, snapshot, draw, notes).front().image;
+  return draw_pictures(scene, snapshot, draw, notes).front().image;
+}
+
+std::vector<float> values_of(const Image& image, const OfPixel& value = brightest_channel) {
   std::vector<float> values;
   for (std::size_t i = 0; i < image.pixels.size(); i += 4)
     values.push_back(value(&image.pixels[i]));
@@ -378,49 +368,36 @@ double part_from(double least, const std::vector<float>& values) {
   return static_cast<double>(values.end() - first) / static_cast<double>(values.size());
 }
 
-class SuggestedPicture : public testing::TestWithParam<const char*> {
- protected:
-  void SetUp() override {
-    const auto path = test::data_folder() / GetParam();
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-    snapshot_ = open_snapshot(path);
-    scene_ = suggest_scene(*snapshot_);
-    scene_.image.width = scene_.image.height = 64;
-  }
-  std::shared_ptr<const Snapshot> snapshot_;
-  Scene scene_;
-};
-
-// 8 bits hold nothing brighter than (1 - 0.5 / 255)^gamma.
-TEST_P(SuggestedPicture, HasHardlyAnyWhitePixels) {
-  const double white = std::pow(1 - 0.5 / 255, scene_.image.gamma);
-  EXPECT_LE(part_from(white, drawn(scene_, *snapshot_, darkest_channel)), 0.005);
-}
-
-// Matter fills what has two thousandths of the light of the brightest pixel.
-TEST_P(SuggestedPicture, ShowsAQuarterOfItselfOrAsMuchAsMatterFills) {
-  Scene as_drawn = scene_;
-  as_drawn.finish = {};
-  const std::vector<float> light = drawn(as_drawn, *snapshot_);
-  const double filled = part_from(2e-3 * static_cast<double>(light.back()), light);
-  EXPECT_GE(part_from(0.02, drawn(scene_, *snapshot_)), std::min(0.25, filled));
-}
-
 // Of the light in it, how much is not gray: 0 to 1.
-TEST_P(SuggestedPicture, HasColors) {
-  const auto saturation = [](const float* pixel) {
+float mean_saturation(const Image& image) {
+  const std::vector<float> values = values_of(image, [](const float* pixel) {
     const float most = brightest_channel(pixel);
     return most > 0.02F ? (most - darkest_channel(pixel)) / most : -1;
-  };
-  const std::vector<float> values = drawn(scene_, *snapshot_, saturation);
+  });
   const auto first = std::lower_bound(values.begin(), values.end(), 0.0F);
-  ASSERT_NE(first, values.end());
-  EXPECT_GT(std::accumulate(first, values.end(), 0.0F) / static_cast<float>(values.end() - first),
-            0.2F);
+  return std::accumulate(first, values.end(), 0.0F) / static_cast<float>(values.end() - first);
 }
 
-TEST_P(SuggestedPicture, FillsSomeOfItsFrame) {
-  EXPECT_GT(part_from(0.02, drawn(scene_, *snapshot_)), 0.04);
+class SuggestedPicture : public testing::TestWithParam<const char*> {};
+
+TEST_P(SuggestedPicture, IsLitColoredAndFilledAsMatterFillsIt) {
+  const auto path = test::data_folder() / GetParam();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const std::shared_ptr<const Snapshot> snapshot = open_snapshot(path);
+  Scene scene = suggest_scene(*snapshot);
+  scene.image.width = scene.image.height = 64;
+  const Image picture = drawn(scene, *snapshot);
+  // 8 bits hold nothing brighter than (1 - 0.5 / 255)^gamma.
+  const double white = std::pow(1 - 0.5 / 255, scene.image.gamma);
+  EXPECT_LE(part_from(white, values_of(picture, darkest_channel)), 0.005) << "hardly any white";
+  EXPECT_GT(mean_saturation(picture), 0.2F) << "colored";
+  // Matter fills what has two thousandths of the light of the brightest pixel.
+  scene.finish = {};
+  const std::vector<float> light = values_of(drawn(scene, *snapshot));
+  const double filled = part_from(2e-3 * static_cast<double>(light.back()), light);
+  const double lit = part_from(0.02, values_of(picture));
+  EXPECT_GE(lit, std::min(0.25, filled)) << "a quarter, or as much as matter fills";
+  EXPECT_GT(lit, 0.04) << "some of its frame";
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -1,27 +1,12 @@
 // Maps by OpenCL, against those by the reference renderer and closed forms.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
 #include "map/gas.h"
 #include "scene/constants.h"
 #include "splotchcl/map.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using test::at;
-using test::Gas;
-using test::map_of;
-using test::map_on_device;
-using test::map_scene;
-using test::random_gas;
-using test::sigma_of_h;
-using test::total_of;
-using ::testing::Each;
 using ::testing::Ge;
 
 class MapOnTheDevice : public testing::Test {
@@ -185,4 +170,4 @@ TEST_F(MapOnTheDevice, KeepsTheBoundOfItsMeans) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

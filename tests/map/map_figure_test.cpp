@@ -1,10 +1,6 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "map/figure.h"
 #include "map/gas.h"
-#include "splotchcl/error.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
@@ -78,7 +74,7 @@ TEST(MapFigure, IsAPdfFileOnRequest) {
   const auto bytes = encode_pdf("a.pdf", figure, scene, {});
   const std::string text(bytes.begin(), bytes.end());
   EXPECT_EQ(text.substr(0, 5), "%PDF-");
-  EXPECT_THAT(text, ::testing::HasSubstr("%%EOF"));
+  EXPECT_THAT(text, HasSubstr("%%EOF"));
   EXPECT_EQ(bytes, encode_pdf("a.pdf", figure, scene, {})) << "the same map, the same bytes";
 }
 
@@ -157,8 +153,7 @@ TEST(MapFigure, HasANoteOnPixelsBelowTheFloor) {
   EXPECT_TRUE(plan_figure(map, {}).notes().empty());
   std::fill_n(map.values.begin(), 25, 1e-6F);
   ASSERT_EQ(plan_figure(map, {}).notes().size(), 1U);
-  EXPECT_THAT(plan_figure(map, {}).notes().front(),
-              ::testing::HasSubstr("25 % of the map's pixels"));
+  EXPECT_THAT(plan_figure(map, {}).notes().front(), HasSubstr("25 % of the map's pixels"));
   EXPECT_TRUE(plan_figure(map, settings(MapScaling::log, 1e-8, 2)).notes().empty());
 }
 
@@ -230,8 +225,7 @@ TEST(MapFigure, HasANoteOnPixelsWithoutALogarithm) {
   MapSettings log;
   log.scaling = MapScaling::log;
   ASSERT_EQ(plan_figure(map, log).notes().size(), 1U);
-  EXPECT_THAT(plan_figure(map, log).notes().front(),
-              ::testing::HasSubstr("25 % of the map's pixels"));
+  EXPECT_THAT(plan_figure(map, log).notes().front(), HasSubstr("25 % of the map's pixels"));
 }
 
 TEST(MapColors, MarkTheBarWhereTheValuesAre) {

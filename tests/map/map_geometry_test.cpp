@@ -1,27 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <string>
-
 #include "map/gas.h"
 #include "map/geometry.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using test::at;
-using test::Gas;
-using test::map_of;
-using test::map_scene;
-using test::one_particle;
-using test::sigma_of_h;
-using test::sum;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 // Which pixel holds most.
 std::pair<int, int> brightest(const Map& map) {
@@ -224,7 +206,7 @@ TEST(MapGeometry, OfAnEmptySelectionIsThatOfTheBox) {
   const Map map = map_of(scene, snapshot, &notes);
   EXPECT_EQ(sum(map), 0);
   EXPECT_EQ(map.center.a[0], 32);
-  EXPECT_THAT(notes, ::testing::ElementsAre(HasSubstr("leave none of its 1 particles")));
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("leave none of its 1 particles")));
 }
 
 TEST(MapGeometry, OfAnEmptySelectionWithoutABoxHasToBeSaid) {
@@ -234,11 +216,11 @@ TEST(MapGeometry, OfAnEmptySelectionWithoutABoxHasToBeSaid) {
   EXPECT_NO_THROW(map_of(scene, snapshot));
   scene.map.width.reset();
   EXPECT_THAT([&] { map_of(scene, snapshot); },
-              ::testing::ThrowsMessage<UsageError>(HasSubstr("; set map.width")));
+              ThrowsMessage<UsageError>(HasSubstr("; set map.width")));
   scene.map.center.reset();
-  EXPECT_THAT([&] { map_of(scene, snapshot); }, ::testing::ThrowsMessage<UsageError>(AllOf(
-                                                    HasSubstr("leave none of 1 particles"),
-                                                    HasSubstr("set map.center and map.width"))));
+  EXPECT_THAT([&] { map_of(scene, snapshot); },
+              ThrowsMessage<UsageError>(AllOf(HasSubstr("leave none of 1 particles"),
+                                              HasSubstr("set map.center and map.width"))));
 }
 
 TEST(MapGeometry, FindsTheDensestPlace) {
@@ -324,4 +306,4 @@ TEST(MapOfABall, HasItsDensityInASlice) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

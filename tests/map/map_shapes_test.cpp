@@ -1,28 +1,11 @@
 #include <fitsio.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
 
 #include "map/gas.h"
 #include "scene/constants.h"
-#include "splotchcl/error.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using test::Gas;
-using test::map_of;
-using test::map_scene;
-using test::one_particle;
-using test::random_gas;
-using test::sigma_of_h;
-using test::total_of;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 double mass_of(const Gas& gas) {
   double mass = 0;
@@ -156,4 +139,4 @@ TEST(MapShapes, TakeLengthsWithUnits) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

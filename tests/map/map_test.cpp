@@ -1,26 +1,11 @@
 #include "splotchcl/map.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "map/gas.h"
 #include "snapshot/subset_snapshot.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using test::at;
-using test::Gas;
-using test::map_of;
-using test::map_scene;
-using test::one_particle;
-using test::random_gas;
-using test::sigma_of_h;
-using test::total_of;
-using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 // The column of a Gaussian over a pixel, from the definition: two differences of erf.
 double pixel_part(double x, double y, double sigma, double pixel_x, double pixel_y) {
@@ -301,7 +286,7 @@ TEST(Map, LeavesOutAndCountsParticlesWithoutAValue) {
   std::vector<std::string> notes;
   const Map map = map_of(scene, gas.snapshot(), &notes);
   EXPECT_EQ(map.bad_particles, 2U);
-  EXPECT_THAT(notes, testing::Contains(testing::HasSubstr("2 particles")));
+  EXPECT_THAT(notes, Contains(HasSubstr("2 particles")));
 }
 
 TEST(Map, CountsAParticleWithoutAValueOnceWhateverItsImages) {
@@ -406,4 +391,4 @@ TEST(Map, TellsOfParticlesWhoseWeightLiesBelowZero) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,28 +1,11 @@
 // Nothing that is chosen for looks reaches a map's numbers, and no box that its particles
 // contradict.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "map/gas.h"
 #include "splotchcl/load.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using test::Gas;
-using test::map_of;
-using test::map_scene;
-using test::MemorySnapshot;
-using test::one_particle;
-using test::sum;
-using ::testing::Each;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 // Of 64 particles in a row, all of one smoothing length, as suggestions have it for even gas.
 MemorySnapshot even_gas() {
@@ -123,7 +106,7 @@ TEST(MapTrust, AFactorOfAPicturesSizesIsToldAndAMapsOwnCounts) {
   scene.components.front().size_factor = 0.25;
   std::vector<std::string> notes;
   map_of(scene, snapshot, &notes);
-  EXPECT_THAT(notes, ::testing::Contains(HasSubstr("size.factor 0.25 is for pictures")));
+  EXPECT_THAT(notes, Contains(HasSubstr("size.factor 0.25 is for pictures")));
 
   Scene wider = map_scene();
   wider.map.size_factor = 2;
@@ -145,7 +128,7 @@ TEST(MapTrust, ABoxThatParticlesReachBeyondIsNotUsedAndANoteSaysSo) {
     snapshot.set_box_size(box);
     std::vector<std::string> notes;
     EXPECT_EQ(map_of(scene, snapshot, &notes).values, expected.values) << box;
-    EXPECT_THAT(notes, ::testing::Contains(HasSubstr("in the header is not used"))) << box;
+    EXPECT_THAT(notes, Contains(HasSubstr("in the header is not used"))) << box;
   }
 }
 
@@ -231,4 +214,4 @@ TEST(MapTrust, APartCutOutOfABoxFillsItsMap) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

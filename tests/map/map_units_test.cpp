@@ -1,40 +1,19 @@
 #include "map/map_units.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numeric>
-
 #include "formats/hdf5/hdf5_values.h"
 #include "map/gas.h"
-#include "paths.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using test::Gas;
-using test::Hdf5Output;
-using test::map_of;
-using test::map_scene;
-using test::write_attribute;
-using test::write_values;
-using testing::HasSubstr;
 
 Gas wide_particle() {
   return test::one_particle({{0, 0, 0}}, 10, 3);
 }
 
 std::string refusal(const Scene& scene) {
-  try {
-    map_of(scene, wide_particle().snapshot());
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by<Error>([&] { map_of(scene, wide_particle().snapshot()); });
 }
 
 TEST(MapUnits, AreThoseThatTheSettingsSay) {
@@ -357,4 +336,4 @@ TEST(MapUnitsOfRealFiles, OfGadgetFourAreTheFiles) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

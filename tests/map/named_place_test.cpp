@@ -1,16 +1,11 @@
 // Places that the data say: of pictures and maps.
 #include "map/named_place.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "map/gas.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 // Two of halo 7 across a face of a box of side 10, and a denser one of halo 3.
 MemorySnapshot haloes() {

@@ -1,17 +1,11 @@
 #include "map/sums.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <vector>
-
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using testing::Each;
 using testing::Ge;
 using testing::SizeIs;
 

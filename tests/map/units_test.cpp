@@ -1,22 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "map/gas.h"
 #include "map/map_files.h"
 #include "map/map_units.h"
 #include "map/sky.h"
 #include "snapshot/unit.h"
-#include "splotchcl/error.h"
 #include "splotchcl/map.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::HasSubstr;
-using testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 constexpr UnitFactors none;
 
@@ -27,12 +18,7 @@ double ratio(const std::string& from, const std::string& to, const UnitFactors& 
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_unit(text, none, "key map.unit");
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_by<UsageError>([&] { parse_unit(text, none, "key map.unit"); });
 }
 
 TEST(Units, MultiplyDivideAndTakePowers) {

@@ -1,19 +1,13 @@
 #include "modules/module_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <fstream>
-
 #include "cli/program.h"
 #include "system/system.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::ElementsAre;
 
 // Where somebody has left libraries by the names of all of our modules, and a picture that only
 // OpenImageIO reads.

@@ -1,19 +1,11 @@
 // A simulation under mpirun that draws itself, each rank with its own particles: the bits of one
 // process, and one line where a rank fails.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "mpi/under_mpi.h"
 #include "spread/component_texts.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::HasSubstr;
 
 const std::string head = "[image]\nsize = [120, 90]\n";
 const std::string camera = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";

@@ -1,16 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <ostream>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "cli/program.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 
@@ -36,8 +27,6 @@ class UnderMpi : public ::testing::TestWithParam<Mpi> {
   }
 
   std::string program() const { return GetParam().run.substr(0, GetParam().run.find(' ')); }
-  // Compiled kernels are kept, so that only the first process of a kind compiles them. Open MPI
-  // has to be told that containers and test machines have one user.
   // A script `one_is_killed` for mpirun. Rank 1 is stopped while it compiles, before any rank can
   // have what it needs of it, and dies.
   void write_one_is_killed(const std::string& command) const {
@@ -48,11 +37,10 @@ class UnderMpi : public ::testing::TestWithParam<Mpi> {
               command + "\n");
     std::filesystem::permissions(*folder_ / "one_is_killed", std::filesystem::perms::owner_all);
   }
+  // Open MPI has to be told that containers and test machines have one user.
   ProgramResult run(const std::string& command) const {
     return run_in(*folder_,
-                  "export SPLOTCHCL_CACHE=$PWD/kernels OMPI_ALLOW_RUN_AS_ROOT=1 "
-                  "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; " +
-                      command);
+                  "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1; " + command);
   }
   std::string mpirun(int processes) const {
     return "timeout 300 " + GetParam().run + " " + std::to_string(processes) + " ";

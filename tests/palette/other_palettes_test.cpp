@@ -1,29 +1,12 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <string>
-#include <vector>
-
 #include "palette/palette_file.h"
-#include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-
 std::string refusal_of_palette(const std::string& text, const std::string& name) {
-  try {
-    parse_palette(text, name);
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal_by<DataError>([&] { parse_palette(text, name); });
 }
 
 const std::vector<Rgb> red_white_blue = {{1, 0, 0}, {1, 1, 1}, {0, 0, 1}};

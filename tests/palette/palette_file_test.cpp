@@ -1,32 +1,16 @@
 #include "palette/palette_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <random>
-#include <string>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
 
 Palette parse(const std::string& text) {
   return parse_palette(text, "p.txt");
 }
 
 std::string message_for(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const DataError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return test::refusal_by<DataError>([&] { parse(text); });
 }
 
 TEST(PaletteFile, HasAKnotPerLine) {

@@ -1,34 +1,16 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
-
 #include "palette/palette_file.h"
-#include "paths.h"
-#include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 namespace fs = std::filesystem;
 
 std::string message_for_name(const std::string& name) {
-  try {
-    load_palette(name);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return test::refusal_by<Error>([&] { load_palette(name); });
 }
 
 double lightness(const Rgb& rgb) {

@@ -1,7 +1,6 @@
 #include "original_drawing.h"
 
-#include <algorithm>
-#include <cmath>
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,15 +1,9 @@
 // docs/original-files.md lists every key and what becomes of it.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "par/par_file.h"
-#include "paths.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::HasSubstr;
 
 TEST(ParDocumentation, NamesEveryKey) {
   const std::string page = test::read_text(test::source_folder() / "docs" / "original-files.md");

@@ -1,10 +1,5 @@
 // Pictures of parameter files against an independent restatement of what the original draws.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <random>
 
 #include "film/path/film_path.h"
 #include "original_drawing.h"
@@ -13,15 +8,10 @@
 #include "splotchcl/load.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/reference.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using test::MemorySnapshot;
-using test::OriginalParticle;
-using test::OriginalPicture;
-using test::TemporaryFolder;
 
 struct Case {
   const char* name;
@@ -199,4 +189,4 @@ INSTANTIATE_TEST_SUITE_P(Cases, ParPictures, ::testing::ValuesIn(cases()),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,25 +1,14 @@
 // The lines of a parameter file.
 #include "par/par_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::par {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-
 template <class Do>
 std::string message_of(Do&& action) {
-  try {
-    action();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::refusal_by<UsageError>([&] { action(); });
 }
 
 TEST(ParFile, HasKeysValuesAndRemarks) {

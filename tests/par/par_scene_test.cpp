@@ -1,25 +1,12 @@
 // What becomes of each key of a parameter file.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-
-#include "paths.h"
 #include "splotchcl/camera.h"
-#include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 const std::string least =
     "infile=snap_\nfidx=92\nperiodic=F\nsize_label0=HSML\ncolor_label0=U\npalette0=a.pal\n"
@@ -34,12 +21,7 @@ class ParScenes : public ::testing::Test {
     return read_par_file(folder_ / "x.par", settings, notes_);
   }
   std::string error(const std::string& more) {
-    try {
-      read(more);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "no error";
+    return test::refusal_by<UsageError>([&] { read(more); });
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 

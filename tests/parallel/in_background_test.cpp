@@ -1,13 +1,13 @@
 #include "parallel/in_background.h"
 
 #include <dlfcn.h>
-#include <gtest/gtest.h>
 #include <pthread.h>
 
 #include <atomic>
 #include <cerrno>
-#include <string>
 #include <thread>
+
+#include "testing.h"
 
 namespace {
 

@@ -1,18 +1,14 @@
-#include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
-#include <set>
-#include <stdexcept>
 #include <thread>
-#include <vector>
 
 #include "parallel/available_memory.h"
 #include "parallel/for_blocks.h"
 #include "parallel/thread_pool.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,15 +1,9 @@
 // How the views of a scene become pictures.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <string>
-#include <vector>
-
 #include "pictures/other_scenes.h"
-#include "splotchcl/error.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,14 +1,8 @@
 // Six faces of a cube against closed forms and each other.
 #include "splotchcl/cube.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <string>
-
 #include "projections/wide_frames.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

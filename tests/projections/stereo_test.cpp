@@ -1,12 +1,8 @@
 // Two eyes against closed forms.
 #include "splotchcl/stereo.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "projections/wide_frames.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,18 +1,8 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <map>
-#include <string>
-#include <tuple>
-#include <vector>
-
 #include "device/pictures.h"
 #include "device/stages.h"
-#include "long_tests.h"
 #include "projections/wide_frames.h"
 #include "splotchcl/stereo.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,14 +1,9 @@
 #include "publish/light_splats.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "frames/random_frames.h"
 #include "publish/web_page.h"
-#include "splotchcl/error.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,11 +1,7 @@
 #include "publish/merge_splats.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "publish/packed_splats.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

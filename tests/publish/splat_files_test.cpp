@@ -1,14 +1,10 @@
 #include "publish/splat_files.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "frames/random_frames.h"
 #include "publish/nearest_splats.h"
 #include "publish/viewer_picture.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
@@ -112,7 +108,7 @@ TEST(SplatFiles, OfGltfAreAsLongAsTheySay) {
 TEST(SplatFiles, OfPlyHaveANumberForEachProperty) {
   const std::string file = as_ply({red_splat(), red_splat(), red_splat()}, "three");
   const std::size_t end = file.find("end_header\n") + 11;
-  EXPECT_THAT(file.substr(0, end), testing::HasSubstr("element vertex 3\n"));
+  EXPECT_THAT(file.substr(0, end), HasSubstr("element vertex 3\n"));
   EXPECT_EQ(file.size() - end, 3U * 17 * 4);
 }
 

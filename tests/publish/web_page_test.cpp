@@ -1,9 +1,7 @@
 #include "publish/web_page.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "frames/random_frames.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
@@ -20,16 +18,16 @@ std::string page_called(const std::string& title) {
 
 TEST(WebPage, LoadsNothing) {
   const std::string page = page_called("A universe");
-  EXPECT_THAT(page, testing::HasSubstr("<title>A universe</title>"));
+  EXPECT_THAT(page, HasSubstr("<title>A universe</title>"));
   for (const char* const loads : {"src=", "href=", "http:", "https:", "fetch(", "import "})
-    EXPECT_THAT(page, testing::Not(testing::HasSubstr(loads))) << loads;
-  EXPECT_THAT(page, testing::Not(testing::HasSubstr("{{")));
+    EXPECT_THAT(page, Not(HasSubstr(loads))) << loads;
+  EXPECT_THAT(page, Not(HasSubstr("{{")));
 }
 
 TEST(WebPage, ShowsATitleAsItIs) {
   const std::string page = page_called("</script><b>&{{splats}}");
-  EXPECT_THAT(page, testing::HasSubstr("<title>&lt;/script>&lt;b>&amp;{{splats}}</title>"));
-  EXPECT_THAT(page, testing::HasSubstr("\\u003c/script>\\u003cb>&{{splats}}"));
+  EXPECT_THAT(page, HasSubstr("<title>&lt;/script>&lt;b>&amp;{{splats}}</title>"));
+  EXPECT_THAT(page, HasSubstr("\\u003c/script>\\u003cb>&{{splats}}"));
 }
 
 }  // namespace

@@ -39,12 +39,12 @@ def place_of_light(image: np.ndarray) -> float:
     return float((light * (np.arange(len(light)) + 0.5)).sum() / light.sum() / len(light))
 
 
-def test_a_film_of_steps_of_one_file_goes_through_them(program, moving_ball, tmp_path):
+def test_a_film_of_steps_of_one_file_goes_through_them(program, renderer, moving_ball, tmp_path):
     through_time = f'[{{frame = 0, "time.index" = 0}}, {{frame = 8, "time.index" = {STEPS - 1}}}]'
     settings = ["camera.position=[0,0,200]", "camera.look_at=[0,0,0]", "camera.width=100",
                 f"path.keyframes={through_time}"]
     words = [word for setting in settings for word in ("--set", setting)]
-    program("movie", f"{moving_ball}/Step#%d", "-o", tmp_path / "f_%d.exr", "--reference",
+    program("movie", f"{moving_ball}/Step#%d", "-o", tmp_path / "f_%d.exr",
             "--size", "96x96", *words)
     places = [place_of_light(Image.open(tmp_path / f"f_{i}.exr").linear) for i in range(9)]
     # From 20 to the left to 20 to the right of the middle, seen from behind, of 100 across.
@@ -53,10 +53,10 @@ def test_a_film_of_steps_of_one_file_goes_through_them(program, moving_ball, tmp
 
 
 @pytest.mark.parametrize("words", [["--dive", "densest"], ["--follow", "densest"]])
-def test_the_light_of_suggested_films_never_jumps(program, tmp_path, words):
+def test_the_light_of_suggested_films_never_jumps(program, renderer, tmp_path, words):
     frames = 24
     program("generate", "universe", "--particles", 2000, "-o", tmp_path / "universe.gadget")
-    program("movie", tmp_path / "universe.gadget", "-o", tmp_path / "f_%02d.png", "--reference",
+    program("movie", tmp_path / "universe.gadget", "-o", tmp_path / "f_%02d.png",
             "--size", "36x24", "--set", f"movie.frames={frames}", *words)
     means = [Image.open(tmp_path / f"f_{i:02d}.png").linear[..., :3].mean() for i in range(frames)]
     steps = np.abs(np.diff(means))

@@ -69,8 +69,8 @@ def test_gas_of_a_universe_has_cold_and_hot_colors(program, real_file, tmp_path)
 @pytest.mark.parametrize("first", ["lcdm/fmt2_snapshot_002", "galaxy_collision/snapshot_000.hdf5"])
 def test_films_are_lit_from_beginning_to_end(program, real_file, tmp_path, first):
     series = str(real_file(first)).replace("002", "%03d").replace("000", "%03d")
-    program("movie", series, "--size", "96x60", "--frames", "0:250:27", "-o", tmp_path / "frame_%03d.png")
+    program("movie", series, "--size", "96x60", "--frames", "0:250:62", "-o", tmp_path / "frame_%03d.png")
     shown = [light_of(path) for path in sorted(tmp_path.glob("frame_*.png"))]
-    assert len(shown) == 10
+    assert len(shown) == 5
     for picture in shown:
         assert_lit(picture)

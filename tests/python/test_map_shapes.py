@@ -212,15 +212,15 @@ def test_the_origin_may_lie_within_a_kernel():
 
 
 @pytest.mark.parametrize(("field", "statistic"), [(None, None), ("charge", "mean")])
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 @pytest.mark.parametrize("shape", [{"healpix": 8}, {"view": "sky", "size": (36, 18)}])
-def test_wide_particles_are_summed_up_at_points_within_the_tolerance(shape, tolerance, field, statistic):
+def test_wide_particles_are_summed_up_at_points_within_the_tolerance(shape, field, statistic):
     arrays = matter(7, count=500, least=0.5, most=5.0)
-    exactly, quickly = (drawn(arrays, field, statistic=statistic, tolerance=t, **shape).values
-                        for t in (0, tolerance))
+    exactly, *quickly = (drawn(arrays, field, statistic=statistic, tolerance=t, **shape).values
+                         for t in (0, 1e-2, 1e-3))
     size = np.ones(1) if field else exactly
-    assert (quickly != exactly).any()
-    assert worst(quickly, exactly, size=size) < tolerance
+    for found, tolerance in zip(quickly, (1e-2, 1e-3)):
+        assert (found != exactly).any()
+        assert worst(found, exactly, size=size) < tolerance
 
 
 @pytest.mark.parametrize("order", ["ring", "nested"])
@@ -343,7 +343,7 @@ def test_a_histogram_has_the_extent_of_its_bins():
     assert found.extent == pytest.approx([-1, 1, *temperature], rel=1e-6)
 
 
-@pytest.mark.parametrize("what", [{"healpix": 2}, {"profile": 2}, {"view": "sky"}])
+@pytest.mark.parametrize("what", [{"healpix": 2}, {"profile": 2}, {"view": "sky", "size": (16, 8)}])
 def test_shapes_without_squares_have_no_extent(what):
     found = drawn(matter(1), **what)
     for name in ("extent", "pixel"):

@@ -1,13 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <functional>
 #include <mutex>
-#include <string>
 
 #include "ranks/exchange.h"
 #include "ranks/thread_ranks.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,11 +1,5 @@
 // Frames that several ranks draw together have the bits of one process, whatever their number.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <memory>
 #include <mutex>
-#include <utility>
-#include <vector>
 
 #include "device/cloud_frames.h"
 #include "device/opencl/device_context.h"
@@ -13,9 +7,9 @@
 #include "device/ranks/fetch_particles.h"
 #include "device/stages.h"
 #include "frames/random_frames.h"
-#include "long_tests.h"
 #include "ranks/spread_particles.h"
 #include "ranks/thread_ranks.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

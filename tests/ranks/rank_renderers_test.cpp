@@ -1,13 +1,10 @@
-#include <gtest/gtest.h>
-
-#include <memory>
 #include <mutex>
-#include <vector>
 
 #include "device/scenes.h"
 #include "ranks/mpi_library.h"
 #include "ranks/thread_ranks.h"
 #include "splotchcl/renderer.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,13 +1,8 @@
 // What the reference renderer draws of clouds around the camera, in closed forms.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "projections/wide_frames.h"
 #include "scene/projection.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

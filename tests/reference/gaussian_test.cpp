@@ -1,18 +1,10 @@
 // One cloud, against the formula.
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "reference/frames.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using test::Cloud;
-using test::component_of;
-using test::frame_of;
-using test::one_color;
 
 DrawnComponent emitting(const std::vector<Cloud>& clouds) {
   DrawnComponent component = component_of(clouds, one_color(1, 0.5f, 0.25f));
@@ -174,4 +166,4 @@ TEST(Footprint, WidensCloudsAndKeepsTheirLight) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,19 +1,13 @@
 // Layers and pictures of several clouds, against closed forms.
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "reference/frames.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using reference::Layer;
-using test::Cloud;
-using test::component_of;
-using test::frame_of;
-using test::one_color;
+using namespace test;
 
 const double* pixel(const ReferenceImage& image, int x, int y) {
   return &image.pixels[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +

@@ -1,21 +1,12 @@
 #include "splotchcl/camera.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-#include <string>
-
 #include "scene/constants.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using namespace boost::qvm;
-using ::testing::HasSubstr;
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
@@ -41,12 +32,7 @@ Camera simple_camera() {
 }
 
 std::string message_for(const Camera& camera) {
-  try {
-    make_camera_frame(camera, 100, 100);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return test::refusal_by<UsageError>([&] { make_camera_frame(camera, 100, 100); });
 }
 
 class RandomCameras : public ::testing::Test {
@@ -253,7 +239,7 @@ TEST(Dome, IsAFisheye) {
   camera.projection = Projection::perspective;
   camera.field_of_view_degrees = 60;
   EXPECT_THAT([&] { make_camera_frame(camera, 100, 100); },
-              ::testing::ThrowsMessage<UsageError>(HasSubstr("camera.dome_tilt")));
+              ThrowsMessage<UsageError>(HasSubstr("camera.dome_tilt")));
 }
 
 }  // namespace

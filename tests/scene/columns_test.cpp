@@ -1,16 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <random>
-#include <vector>
-
 #include "device/counted_column.h"
 #include "scene/particle_columns.h"
 #include "scene/scalar_map.h"
 #include "scene/statistics.h"
 #include "splotchcl/palette.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

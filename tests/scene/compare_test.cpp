@@ -1,17 +1,9 @@
 #include "splotchcl/compare.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using testing::HasSubstr;
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -102,13 +94,8 @@ TEST(CompareImages, LeavesAlphaOutWhenAsked) {
 }
 
 TEST(CompareImages, RefusesDifferentSizesAndNamesBoth) {
-  try {
-    (void)compare_images(Image(3, 2), Image(2, 3));
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("3x2"));
-    EXPECT_THAT(error.what(), HasSubstr("2x3"));
-  }
+  EXPECT_THAT([&] { (void)compare_images(Image(3, 2), Image(2, 3)); },
+              ThrowsMessage<UsageError>(AllOf(HasSubstr("3x2"), HasSubstr("2x3"))));
 }
 
 TEST(DifferenceImage, ShowsWhereAndHowFarThePicturesDiffer) {

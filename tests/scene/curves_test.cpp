@@ -1,14 +1,10 @@
 #include "scene/curves.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <vector>
 
 #include "scene/constants.h"
 #include "scene/expect_near.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-
 #include "splotchcl/vector.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

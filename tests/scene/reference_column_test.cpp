@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-
 #include "scene/statistics.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,14 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "scene_file/keys.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 
@@ -31,12 +25,7 @@ inline void expect_same(const Scene& a, const Scene& b) {
 // What a user is told about this text and these settings.
 inline std::string message_for(const std::string& text,
                                const std::vector<std::string>& settings = {}) {
-  try {
-    parse_scene(text, "scene.toml", settings);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "nothing was refused";
+  return refusal_by<UsageError>([&] { parse_scene(text, "scene.toml", settings); });
 }
 
 }  // namespace splotchcl::test

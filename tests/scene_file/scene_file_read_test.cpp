@@ -1,22 +1,12 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <fstream>
-#include <string>
-
+// What a scene file says, also of columns.
 #include "scene_file/scene_checks.h"
-#include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using test::expect_same;
-using test::same;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 Scene parse(const std::string& text) {
@@ -209,13 +199,9 @@ TEST_F(SceneFileOnDisk, TakesPathsOfSettingsAsTheyAre) {
 
 TEST_F(SceneFileOnDisk, NeedsASnapshot) {
   const fs::path path = write("tolerance = 0.1");
-  try {
-    read_scene_file(path);
-    FAIL() << "nothing was refused";
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("key snapshot: found nothing"));
-    EXPECT_THAT(error.what(), HasSubstr(path.string()));
-  }
+  EXPECT_THAT([&] { read_scene_file(path); },
+              ThrowsMessage<UsageError>(
+                  AllOf(HasSubstr("key snapshot: found nothing"), HasSubstr(path.string()))));
 }
 
 TEST_F(SceneFileOnDisk, MayLeaveTheSnapshotToASetting) {
@@ -224,17 +210,63 @@ TEST_F(SceneFileOnDisk, MayLeaveTheSnapshotToASetting) {
 
 TEST_F(SceneFileOnDisk, ThatIsMissingIsADataErrorThatNamesIt) {
   const fs::path path = folder_ / "no_such.toml";
-  try {
-    read_scene_file(path);
-    FAIL() << "nothing was refused";
-  } catch (const DataError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(path.string()));
-  }
+  EXPECT_THAT([&] { read_scene_file(path); }, ThrowsMessage<DataError>(HasSubstr(path.string())));
 }
 
 TEST_F(SceneFileOnDisk, ThatIsAFolderIsADataError) {
   EXPECT_THROW(read_scene_file(folder_), DataError);
 }
 
+using ::testing::UnorderedElementsAre;
+
+const std::string start = "snapshot = \"s\"\n[[component]]\ntypes = [0]\n";
+
+TEST(ReadColumns, MayBeATableOfNamesAndColumns) {
+  const Scene scene = parse_scene(
+      start + "[read]\ncolumns = {x = \"a/b\", \"y [kpc]\" = \"list:y\", z = 3}\n", "scene.toml");
+  EXPECT_THAT(scene.read.columns, UnorderedElementsAre("x=a/b", "y [kpc]=list:y", "z=3"));
+}
+
+TEST(ReadColumns, AreWrittenAsTheyAreRead) {
+  const Scene scene = parse_scene(start + "[read.columns]\nx = \"a/b\"\n", "scene.toml");
+  EXPECT_EQ(parse_scene(format_scene(scene), "again.toml").read.columns, scene.read.columns);
+}
+
+TEST(ReadColumns, OfOtherKindsAreRefused) {
+  for (const char* const value : {"{x = true}", "{}", "{x = \"\"}", "{\"x=y\" = \"a\"}"}) {
+    EXPECT_THAT([&] { parse_scene(start + "[read]\ncolumns = " + value + "\n", "scene.toml"); },
+                ThrowsMessage<UsageError>(HasSubstr("a table of strings by name")))
+        << value;
+  }
+}
+
+TEST(ReadUnits, AreATableOfFieldsAndUnits) {
+  const Scene scene = parse_scene(
+      start + "[read]\nunits = {mass = \"Msun\", position = \"kpc/h a\"}\n", "scene.toml");
+  EXPECT_THAT(scene.read.units, UnorderedElementsAre("mass=Msun", "position=kpc/h a"));
+  EXPECT_EQ(parse_scene(format_scene(scene), "again.toml").read.units, scene.read.units);
+}
+
+TEST(ReadUnits, MayBeOfASystem) {
+  for (const char* const value : {"\"gadget\"", "[\"gadget\"]"}) {
+    const Scene scene = parse_scene(start + "[read]\nunits = " + value + "\n", "scene.toml");
+    EXPECT_THAT(scene.read.units, UnorderedElementsAre("gadget"));
+    EXPECT_EQ(parse_scene(format_scene(scene), "again.toml").read.units, scene.read.units);
+  }
+  EXPECT_THAT(apply_settings(Scene(), {"read.units=gadget"}).read.units,
+              UnorderedElementsAre("gadget"));
+}
+
+TEST(Haloes, HaveNumbersOfAnyLength) {
+  for (const std::uint64_t number :
+       {std::uint64_t{0}, std::uint64_t{9007199254740993U}, std::uint64_t{18446744073709551615U}}) {
+    const Scene scene =
+        parse_scene(start + "select.halo = \"" + std::to_string(number) + "\"\n", "scene.toml");
+    EXPECT_EQ(scene.components.front().select.halo, number);
+    EXPECT_EQ(parse_scene(format_scene(scene), "again.toml").components.front().select.halo,
+              number);
+  }
+}
+
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

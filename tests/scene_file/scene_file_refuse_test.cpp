@@ -1,19 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <ostream>
-#include <string>
-#include <vector>
-
 #include "scene_file/scene_checks.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using test::message_for;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
 
 struct Refused {
   std::string text;

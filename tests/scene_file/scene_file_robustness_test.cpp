@@ -1,19 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <random>
-#include <string>
-
-#include "long_tests.h"
 #include "scene_file/random_scenes.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::HasSubstr;
 
 // Whether a text is refused, which is to be in one line.
 bool is_refused(const std::string& text) {
@@ -80,12 +70,7 @@ TEST(DeepKeys, AreNotDotsInTextsRemarksAndNumbers) {
 
 TEST(LongScenes, HaveLimitsOnTextsAndComponents) {
   const auto message = [](const std::string& text) -> std::string {
-    try {
-      parse_scene(text, "scene.toml");
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "none";
+    return test::refusal_by<UsageError>([&] { parse_scene(text, "scene.toml"); });
   };
   const std::string title = "snapshot = 'x'\n[finish.title]\ntext = \"";
   EXPECT_THAT(message(title + std::string(2000000, 'm') + "\"\n"), HasSubstr("at most 2000 bytes"));

@@ -1,25 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "scene_file/scene_checks.h"
 #include "scene_file/suggested.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using test::expect_same;
-using test::message_for;
-using test::same;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
 
 const std::string text = R"(
 snapshot = "snap"
@@ -447,4 +432,4 @@ TEST(Settings, AreRefusedInsideACameraThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,24 +1,11 @@
 // Which particles a component draws.
 #include "select/selection.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <fstream>
-#include <limits>
-
 #include "load/particles.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 // Masses of gas_row are 1, 2, 3, ...: they tell which particles were drawn.
 std::vector<float> drawn(const Component& component, const Snapshot& snapshot = gas_row()) {
@@ -454,7 +441,7 @@ TEST(Selection, ReadsOnlyWhatFormulasName) {
   Component component = selecting({"mass > 1 && mass < 4"});
   component.color.field = "2 * density";
   load(component, snapshot);
-  EXPECT_THAT(snapshot.fields_read(), ::testing::Not(Contains("internal_energy")));
+  EXPECT_THAT(snapshot.fields_read(), Not(Contains("internal_energy")));
 }
 
 TEST(Selection, NamesTheNearestFieldOfOneThatAFormulaLacks) {

@@ -1,25 +1,13 @@
 // Particles between two snapshots against closed forms.
 #include "between/interpolation.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <numeric>
-#include <vector>
-
 #include "sequence/moving_snapshot.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
-using ::testing::Each;
-using ::testing::ElementsAre;
 using ::testing::FloatEq;
-using ::testing::HasSubstr;
 
 // Stored coordinates and results are rounded to single precision once each.
 constexpr double rounding = 2.5e-7;
@@ -207,13 +195,9 @@ TEST(HermitePositions, TakeGadgetsVelocitiesOverTheScaleFactor) {
 TEST(HermitePositions, AreRefusedWithoutVelocities) {
   const auto first = MovingSnapshot(0).ids(0, {1}).positions(0, {0, 0, 0}).make();
   const auto second = MovingSnapshot(1).ids(0, {1}).positions(0, {0, 0, 0}).make();
-  try {
-    between(first, second, 0.5, Interpolation::hermite);
-    FAIL();
-  } catch (const UsageError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("which needs velocities"));
-    EXPECT_THAT(error.what(), HasSubstr("\"linear\""));
-  }
+  EXPECT_THAT([&] { between(first, second, 0.5, Interpolation::hermite); },
+              ThrowsMessage<UsageError>(
+                  AllOf(HasSubstr("which needs velocities"), HasSubstr("\"linear\""))));
 }
 
 TEST(HermitePositions, AreRefusedWhereVelocitiesMayMeanAnything) {
@@ -253,7 +237,7 @@ TEST(HermitePositions, AreDoubtedWhereParticlesTurnInBetween) {
         .make();
   };
   const InterpolatedSnapshot middle = between(make(0, 0), make(1, 1), 0.5, Interpolation::hermite);
-  EXPECT_THAT(middle.info().notes, ::testing::Contains(HasSubstr("closer together")));
+  EXPECT_THAT(middle.info().notes, Contains(HasSubstr("closer together")));
 }
 
 TEST(Fields, AreLinearOrLogarithmicByTheirKind) {
@@ -284,8 +268,8 @@ TEST(Fields, ThatOnlyOneSnapshotHasAreLeftOutAndNamed) {
   const auto second = MovingSnapshot(1).ids(0, {1}).positions(0, {0, 0, 0}).make();
   const InterpolatedSnapshot middle = between(first, second, 0.25);
   EXPECT_EQ(find_field(middle.info().types[0], "density"), nullptr);
-  EXPECT_THAT(middle.info().notes, ::testing::Contains(HasSubstr("density")));
+  EXPECT_THAT(middle.info().notes, Contains(HasSubstr("density")));
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

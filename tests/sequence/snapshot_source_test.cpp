@@ -1,29 +1,16 @@
 #include "splotchcl/snapshot_source.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-
 #include "formats/snapshot_writer.h"
-#include "paths.h"
 #include "sequence/interpolated_snapshot.h"
 #include "snapshot/snapshot_files.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using namespace splotchcl::test;
 
 // Sequences of files: which snapshots a moment needs, and that reading ahead changes nothing.
 
@@ -151,12 +138,8 @@ TEST_F(Sequence, SelectsByIdsBetweenSnapshots) {
 
 TEST_F(Sequence, OutOfRangeIsRefused) {
   for (const double index : {1.5, 6.001, -1.0}) {
-    try {
-      SnapshotSource().at(scene(index));
-      FAIL() << index;
-    } catch (const UsageError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("expected a number from 2"));
-    }
+    EXPECT_THAT([&] { SnapshotSource().at(scene(index)); },
+                ThrowsMessage<UsageError>(HasSubstr("expected a number from 2")));
   }
 }
 
@@ -303,4 +286,4 @@ TEST_F(RealSequences, OfTwoGalaxiesMatchEveryParticle) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

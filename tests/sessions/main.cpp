@@ -1,8 +1,9 @@
 // Each session of the folder as a test.
-#include <gtest/gtest.h>
+#include <deque>
 
 #include "cli/program.h"
 #include "sessions/session.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
@@ -23,38 +24,61 @@ bool is_there(const std::string& need) {
   return std::system(("command -v " + need + " > /dev/null").c_str()) == 0;
 }
 
+// In a folder; what is not answered as it is expected, if anything is.
+std::string run_all(const std::vector<Exchange>& exchanges, const TemporaryFolder& folder) {
+  for (const auto& [command, expected] : exchanges) {
+    ProgramResult found = run_in(folder, "PATH=\"${splotchcl%/*}:$PATH\"; " + command);
+    for (std::string* const text : {&found.out, &found.err})
+      if (!text->empty() && text->back() != '\n') *text += '\n';
+    if (found.exit_code != expected.exit_code || !fits(found.out, expected.out) ||
+        !fits(found.err, expected.err))
+      return "$ " + command + "\n-- found\n" + told({found.out, found.err, found.exit_code}) +
+             "-- expected\n" + told(expected);
+  }
+  return "";
+}
+
+// What a file's sessions begin with is made once, and each gets a copy.
+struct Beginning {
+  explicit Beginning(const SessionFile& file) : failure(run_all(file.setup, folder)) {}
+  const TemporaryFolder folder{"setup"};
+  const std::string failure;
+};
+
+const Beginning& beginning_of(const SessionFile& file) {
+  static std::map<std::string, Beginning> made;
+  return made.try_emplace(file.name, file).first->second;
+}
+
 class SessionTest : public ::testing::Test {
  public:
-  explicit SessionTest(Session session) : session_(std::move(session)) {}
+  SessionTest(const SessionFile& file, const Session& session) : file_(file), session_(session) {}
 
   void TestBody() override {
     for (const std::string& need : session_.needs)
       if (!is_there(need)) GTEST_SKIP() << "no " << need << " here";
+    const Beginning& beginning = beginning_of(file_);
+    ASSERT_TRUE(beginning.failure.empty()) << beginning.failure;
     const TemporaryFolder folder;
-    for (const Exchange& exchange : session_.exchanges) {
-      ProgramResult found = run_in(folder, "PATH=\"${splotchcl%/*}:$PATH\"; " + exchange.command);
-      for (std::string* const text : {&found.out, &found.err})
-        if (!text->empty() && text->back() != '\n') *text += '\n';
-      const Answer& expected = exchange.expected;
-      ASSERT_TRUE(found.exit_code == expected.exit_code && fits(found.out, expected.out) &&
-                  fits(found.err, expected.err))
-          << "$ " << exchange.command << "\n-- found\n"
-          << told({found.out, found.err, found.exit_code}) << "-- expected\n"
-          << told(expected);
-    }
+    ASSERT_EQ(run_in(folder, "cp -a '" + beginning.folder.path().string() + "/.' .").exit_code, 0);
+    const std::string failure = run_all(session_.exchanges, folder);
+    EXPECT_TRUE(failure.empty()) << failure;
   }
 
  private:
-  Session session_;
+  const SessionFile& file_;
+  const Session& session_;
 };
 
 void register_sessions(const std::filesystem::path& folder) {
+  static std::deque<SessionFile> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() != ".session") continue;
-    for (const Session& session : read_sessions(entry.path())) {
-      ::testing::RegisterTest(entry.path().stem().c_str(), session.name.c_str(), nullptr, nullptr,
-                              entry.path().c_str(), 1,
-                              [session]() -> ::testing::Test* { return new SessionTest(session); });
+    const SessionFile& file = files.emplace_back(read_sessions(entry.path()));
+    for (const Session& session : file.sessions) {
+      const auto make = [&]() -> ::testing::Test* { return new SessionTest(file, session); };
+      ::testing::RegisterTest(file.name.c_str(), session.name.c_str(), nullptr, nullptr,
+                              entry.path().c_str(), 1, make);
     }
   }
 }

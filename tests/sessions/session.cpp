@@ -1,9 +1,8 @@
 #include "sessions/session.h"
 
 #include <cctype>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
+
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
@@ -87,10 +86,11 @@ bool fits_from(const std::string& found, std::size_t at, const std::string& expe
 
 }  // namespace
 
-std::vector<Session> read_sessions(const std::filesystem::path& file) {
-  std::ifstream text(file);
-  Session setup;
-  std::vector<Session> sessions;
+SessionFile read_sessions(const std::filesystem::path& path) {
+  std::ifstream text(path);
+  SessionFile file;
+  file.name = path.stem();
+  std::vector<Session>& sessions = file.sessions;
   for (std::string line; std::getline(text, line);) {
     if (begins_with(line, "== ")) {
       sessions.push_back(named(line.substr(3)));
@@ -98,22 +98,21 @@ std::vector<Session> read_sessions(const std::filesystem::path& file) {
       add_line(line, sessions.back());
     }
   }
-  if (!sessions.empty() && sessions.front().name == "setup") {
-    setup = sessions.front();
-    sessions.erase(sessions.begin());
-  }
   for (Session& session : sessions) {
     if (session.exchanges.empty())
-      throw std::runtime_error(file.string() + ": " + session.name + " has no commands");
-    session.needs.insert(session.needs.begin(), setup.needs.begin(), setup.needs.end());
-    session.exchanges.insert(session.exchanges.begin(), setup.exchanges.begin(),
-                             setup.exchanges.end());
+      throw std::runtime_error(path.string() + ": " + session.name + " has no commands");
     for (Exchange& exchange : session.exchanges) {
       end_without_blank_lines(exchange.expected.out);
       end_without_blank_lines(exchange.expected.err);
     }
   }
-  return sessions;
+  if (sessions.empty() || sessions.front().name != "setup") return file;
+  const Session setup = sessions.front();
+  sessions.erase(sessions.begin());
+  file.setup = setup.exchanges;
+  for (Session& session : sessions)
+    session.needs.insert(session.needs.end(), setup.needs.begin(), setup.needs.end());
+  return file;
 }
 
 bool fits(const std::string& found, const std::string& expected) {

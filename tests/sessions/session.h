@@ -28,8 +28,13 @@ struct Session {
   std::vector<Exchange> exchanges;
 };
 
-// Setup and all, so that each session stands alone.
-std::vector<Session> read_sessions(const std::filesystem::path& file);
+// The sessions of a file and what comes before each, of which they need the same.
+struct SessionFile {
+  std::string name;
+  std::vector<Exchange> setup;
+  std::vector<Session> sessions;
+};
+SessionFile read_sessions(const std::filesystem::path& file);
 
 bool fits(const std::string& found, const std::string& expected);
 

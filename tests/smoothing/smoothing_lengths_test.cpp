@@ -1,13 +1,6 @@
 #include "smoothing/smoothing_lengths.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
@@ -126,7 +119,7 @@ TEST(SmoothingLengths, OfCoincidentParticlesAreTheSmallestOfOthers) {
 // As where a file was cut, or a code keeps what has left its box at one place. Where each looked at
 // all the others it would take hours.
 TEST(SmoothingLengths, OfVeryManyCoincidentParticlesTakeNoLongerThanOfOthers) {
-  constexpr std::size_t coincident = 400000, others = 1000;
+  const std::size_t coincident = static_cast<std::size_t>(test::rounds(2000000)), others = 1000;
   std::vector<float> positions = random_positions(others, 1, 9);
   positions.resize(3 * (others + coincident), 0.5F);
   const Column lengths = find_smoothing_lengths(Column::owning(positions), others + coincident);

@@ -1,18 +1,9 @@
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <limits>
-#include <set>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include "formats/unit_names.h"
-#include "paths.h"
 #include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"
 #include "snapshot/snapshot_files.h"
 #include "snapshot/unit.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

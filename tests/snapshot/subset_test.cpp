@@ -1,23 +1,15 @@
-#include <numeric>
-#include <random>
-#include <set>
-
 #include "formats/snapshot_checks.h"
 #include "snapshot/memory_snapshot.h"
 #include "snapshot/subset_snapshot.h"
 #include "splotchcl/load.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
 using test::MemorySnapshot;
-using ::testing::Contains;
-using ::testing::Each;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::Lt;
 
 // Particles 0, 1, 2, ... of a type, with positions and masses that say which they are.
@@ -90,7 +82,7 @@ TEST(Subset, AsManyAsThereAreIsAll) {
   const SubsetSnapshot subset(numbered(30, 10), at_most(1000));
   EXPECT_EQ(subset.read(0, "mass").size(), 30U);
   EXPECT_TRUE(subset.info().is_whole());
-  EXPECT_THAT(subset.info().notes, ::testing::IsEmpty());
+  EXPECT_THAT(subset.info().notes, IsEmpty());
 }
 
 // Clouds of equal mass, all of their light within the picture.
@@ -177,4 +169,4 @@ TEST(SubsetPictures, KeepTheReferenceThatIsDecidedForAFilm) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,32 +1,19 @@
 // Ranks that all have a snapshot look at its particles together: each reads its share, and all
 // decide what one process would.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <functional>
 #include <mutex>
-#include <string>
-#include <vector>
 
 #include "load/passes.h"
 #include "ranks/exchange.h"
 #include "ranks/forwarding_ranks.h"
 #include "scene/particle_columns.h"
-#include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "spread/simulation.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 // Counts the values that are read of its columns, which are too large to be held.
 class CountedSnapshot : public Snapshot {

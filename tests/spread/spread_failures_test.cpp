@@ -1,28 +1,17 @@
 // What goes wrong on one rank, or on all: each call ends on all of them, and one says why.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <functional>
 #include <mutex>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "ranks/forwarding_ranks.h"
 #include "ranks/spread_particles.h"
-#include "splotchcl/error.h"
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/spread_snapshot.h"
 #include "spread/simulation.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const std::string small_head = "snapshot = \"memory\"\n[image]\nsize = [32, 32]\n";
 const std::string camera = "[camera]\nposition = [0, -4, 1]\nlook_at = [0, 0, 0]\n";

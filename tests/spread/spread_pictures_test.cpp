@@ -1,18 +1,11 @@
 // Each rank has its own particles, and the picture is that of all of them.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "splotchcl/frame_drawer.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
 #include "splotchcl/spread_snapshot.h"
 #include "spread/component_texts.h"
 #include "spread/simulation.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

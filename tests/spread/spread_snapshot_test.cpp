@@ -1,14 +1,8 @@
 #include "splotchcl/spread_snapshot.h"
 
-#include <gtest/gtest.h>
-
-#include <numeric>
-#include <string>
-#include <vector>
-
 #include "ranks/spread_particles.h"
-#include "splotchcl/error.h"
 #include "spread/simulation.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

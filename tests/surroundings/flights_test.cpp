@@ -1,20 +1,10 @@
 // Flights through clouds are continuous: the picture changes by as much as the camera moves, in
 // steps of any length, and nothing pops.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "device/pictures.h"
 #include "frames/random_frames.h"
-#include "paths.h"
 #include "splotchcl/load.h"
 #include "splotchcl/snapshot_file.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,17 +1,9 @@
 // Random small scenes with clouds around the camera keep their tolerance, in all plans, shapes and
 // projections.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "device/pictures.h"
 #include "frames/random_frames.h"
 #include "frames/random_promise.h"
-#include "long_tests.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

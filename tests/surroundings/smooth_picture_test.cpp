@@ -1,19 +1,13 @@
 #include "surroundings/smooth_picture.h"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <vector>
 
 #include "frames/random_frames.h"
-#include "long_tests.h"
 #include "scene/projection.h"
 #include "surroundings/clouds_in_blocks.h"
 #include "surroundings/columns_around.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

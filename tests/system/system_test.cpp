@@ -1,14 +1,13 @@
 #include "system/system.h"
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <filesystem>
+
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

@@ -1,11 +1,6 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <string>
-
 #include "device/pictures.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 #include "tree/merged_drawing.h"
 #include "tree/tree_scenes.h"
 

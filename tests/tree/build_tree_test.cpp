@@ -1,14 +1,6 @@
 #include "tree/build_tree.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <limits>
-#include <numeric>
-#include <set>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 #include "tree/sampled_field.h"
 #include "tree/tree_scenes.h"
 

@@ -1,11 +1,4 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <random>
-#include <vector>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 #include "tree/tree_cut.h"
 #include "tree/tree_scenes.h"
 
@@ -63,7 +56,7 @@ TEST(DamagedTrees, AreCutToPlacesOfParticlesOrRefused) {
       EXPECT_LE(cut.nodes, 3 * whole->node_count());
     } catch (const DataError& error) {
       ++refused;
-      EXPECT_THAT(error.what(), ::testing::HasSubstr("splotchcl tree wrote"));
+      EXPECT_THAT(error.what(), HasSubstr("splotchcl tree wrote"));
     }
   }
   EXPECT_GT(refused, 10);

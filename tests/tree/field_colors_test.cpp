@@ -1,10 +1,7 @@
 #include "tree/field_colors.h"
 
-#include <gtest/gtest.h>
-
-#include <random>
-
 #include "scene/scalar_map.h"
+#include "testing.h"
 #include "tree/sampled_field.h"
 
 namespace splotchcl::test {

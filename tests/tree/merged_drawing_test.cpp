@@ -1,15 +1,9 @@
 #include "tree/merged_drawing.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <numeric>
-#include <string>
-
 #include "device/pictures.h"
-#include "long_tests.h"
 #include "scene/particle_columns.h"
 #include "splotchcl/reference.h"
+#include "testing.h"
 #include "tree/tree_cut.h"
 #include "tree/tree_preview.h"
 #include "tree/tree_scenes.h"

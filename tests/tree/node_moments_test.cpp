@@ -1,10 +1,6 @@
 #include "tree/node_moments.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <random>
-#include <vector>
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

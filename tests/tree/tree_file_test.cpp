@@ -1,17 +1,10 @@
 #include "tree/tree_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <string>
 
 #include "formats/snapshot_writer.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 #include "tree/tree_scenes.h"
 
 namespace splotchcl::test {

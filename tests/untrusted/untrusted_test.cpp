@@ -1,32 +1,21 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <new>
-#include <string>
 
 #include "damaged_hdf5.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_writer.h"
-#include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/snapshot_file.h"
 #include "splotchcl/untrusted_file.h"
 #include "system/system.h"
-#include "temporary_folder.h"
+#include "testing.h"
 #include "untrusted/child_process.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 // Files that may be anything are read in a child process: whatever they do to a library, what comes
 // back is nothing or an error.
@@ -124,12 +113,7 @@ TEST_F(CutFile, IsAnErrorWhereItIsReadAnew) {
 // What is thrown, or nothing.
 template <typename Exception>
 std::string error_of(const std::function<void()>& task, const ChildLimits& limits = {}) {
-  try {
-    run_in_child("file", task, limits);
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_by<Exception>([&] { run_in_child("file", task, limits); });
 }
 
 TEST(ChildProcess, ReturnsWhereItsTaskReturnsAndChangesNothingHere) {

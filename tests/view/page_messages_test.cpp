@@ -1,21 +1,11 @@
 #include "view/requests/page_messages.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <set>
-#include <string>
-#include <vector>
-
 #include "matches.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 #include "view/requests/page_requests.h"
 
 namespace splotchcl::view {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 // What a page may say, and what is refused.
 
@@ -26,12 +16,7 @@ PageState state_of(const std::string& settings, const std::string& hidden = "[]"
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    parse_page_message(text);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_by<UsageError>([&] { parse_page_message(text); });
 }
 
 std::string refusal_of_setting(const std::string& key, const std::string& value) {
@@ -95,7 +80,7 @@ TEST(PageMessages, FilmsAreMadeAndCancelled) {
 }
 
 TEST(PageMessages, KeysThatMayBeSetAreOfEachComponent) {
-  EXPECT_THAT(settable_keys(2), ::testing::Contains("component.1.color.field"));
+  EXPECT_THAT(settable_keys(2), Contains("component.1.color.field"));
   EXPECT_TRUE(is_settable("component.7.select.where"));
   EXPECT_FALSE(is_settable("component.7.select.ids"));
 }

@@ -1,13 +1,6 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <memory>
-#include <set>
-
 #include "device/counted_column.h"
 #include "splotchcl/camera.h"
-#include "splotchcl/error.h"
+#include "testing.h"
 #include "view/answers.h"
 #include "view/frame_sample.h"
 #include "view/pick.h"
@@ -15,9 +8,6 @@
 
 namespace splotchcl::view {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 // A part of the particles that has the light of all.
 

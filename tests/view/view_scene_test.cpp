@@ -1,20 +1,12 @@
 // What a page's state makes of the scene that was opened.
 #include "view/view_scene.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
-#include <utility>
-
 #include "splotchcl/camera.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl::view {
 namespace {
-
-using ::testing::ElementsAre;
 
 Scene opened_scene() {
   Scene scene;

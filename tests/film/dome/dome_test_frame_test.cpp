@@ -1,11 +1,8 @@
 // The geometry of domes, by their test frame.
 #include "film/dome/dome_test_frame.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "scene/constants.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

@@ -1,24 +1,12 @@
 // One way to draw a frame: what comes back of it, mostly with the oracle, which needs no device.
 #include "splotchcl/frame_drawer.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <limits>
-#include <vector>
-
 #include "splotchcl/array_snapshot.h"
-#include "splotchcl/error.h"
 #include "splotchcl/scene_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::ThrowsMessage;
 
 constexpr const char* scene_text = R"(
 snapshot = "arrays"

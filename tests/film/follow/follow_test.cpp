@@ -1,34 +1,19 @@
 // Films that follow real matter. Where it truly is, is measured here in a way of its own: where
 // most of the same particles are, from the mean of all on.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "film/follow/find_followed.h"
 #include "film/follow/followed_particles.h"
 #include "film/frames/film_scene.h"
-#include "paths.h"
 #include "splotchcl/camera.h"
-#include "splotchcl/error.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/scene_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using boost::qvm::mag;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
 // By type and id.
 using Identities = std::set<std::pair<int, std::uint64_t>>;

@@ -1,8 +1,6 @@
 #include "film/frames/film_tone.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

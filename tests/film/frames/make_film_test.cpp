@@ -1,27 +1,13 @@
 // Films made by the library, without the command line.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <fstream>
-#include <limits>
-#include <string>
-#include <vector>
 
-#include "splotchcl/error.h"
 #include "splotchcl/film.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/image_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class Films : public ::testing::Test {
  protected:
@@ -42,12 +28,7 @@ class Films : public ::testing::Test {
     report_.frame = [this](int frame, std::size_t, std::size_t) { frames_.push_back(frame); };
   }
   std::string refusal() const {
-    try {
-      make_film(options_, report_);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "was not refused";
+    return test::refusal_by<UsageError>([&] { make_film(options_, report_); });
   }
   // The second half is to come.
   void draw_half_before_a_change_of(const std::string& name) {
@@ -142,12 +123,8 @@ TEST_F(Films, EndWhereTheirDataIsWrittenAnewWhileTheyAreDrawn) {
     frames_.push_back(frame);
     if (frame == 2) write_gadget2(folder_ / "halo.gadget", halo_);
   };
-  try {
-    make_film(options_, report_);
-    ADD_FAILURE() << "the film was made";
-  } catch (const DataError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("halo.gadget: changed while it was used"));
-  }
+  EXPECT_THAT([&] { make_film(options_, report_); },
+              ThrowsMessage<DataError>(HasSubstr("halo.gadget: changed while it was used")));
   EXPECT_THAT(frames_, ElementsAre(0, 1, 2));
   EXPECT_TRUE(has("frame_1.png"));
   EXPECT_FALSE(has("frame_2.png"));

@@ -1,11 +1,5 @@
 // Cameras that follow and approach, and how fast they go.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <string>
-#include <vector>
 
 #include "film/path/film_path.h"
 #include "film/path/keyframe_pace.h"
@@ -15,6 +9,7 @@
 #include "scene/expect_near.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/scene_file.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
@@ -22,10 +17,7 @@ namespace {
 using boost::qvm::dot;
 using boost::qvm::mag;
 using boost::qvm::normalized;
-using test::expect_near;
-using test::refusal;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
+using namespace test;
 
 // Looks along y at a point that is 10 away, over a picture that is 10 wide there.
 const std::string head =

@@ -1,24 +1,17 @@
 #include "film/path/film_path.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <fstream>
 
 #include "film/path/path_messages.h"
 #include "scene/expect_near.h"
 #include "splotchcl/scene_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using boost::qvm::mag;
-using test::expect_near;
-using test::refusal;
-using ::testing::HasSubstr;
+using namespace test;
 
 std::vector<Scene> frames_of(const Scene& scene) {
   std::vector<std::string> notes;

@@ -1,11 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <string>
-
-#include "splotchcl/error.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 

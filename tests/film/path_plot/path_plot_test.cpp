@@ -1,12 +1,9 @@
 #include "film/path_plot/path_plot.h"
 
-#include <gtest/gtest.h>
-
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <random>
 
 #include "film/path_plot/plot_panel.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {

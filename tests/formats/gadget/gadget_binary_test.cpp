@@ -1,17 +1,10 @@
-#include <array>
-#include <fstream>
-
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_writer.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::HasSubstr;
 
 // The path of the file that is mapped at an address; empty when none is.
 std::string file_mapped_at(const void* address) {
@@ -55,7 +48,7 @@ TEST_P(GadgetBinary, HasTheValuesThatWereWritten) {
   write_gadget(folder / "snap", written, GetParam().format, GetParam().is_swapped);
   const auto snapshot = open_snapshot(folder / "snap");
   expect_columns_of(*snapshot, written);
-  EXPECT_THAT(snapshot->info().notes, ::testing::IsEmpty());
+  EXPECT_THAT(snapshot->info().notes, IsEmpty());
 }
 
 TEST_P(GadgetBinary, DescribesTheHeader) {
@@ -236,11 +229,11 @@ TEST(GadgetBinaryFields, AMissingFieldIsNamedWithThoseThatAreThere) {
   const TemporaryFolder folder;
   write_gadget(folder / "snap", small_snapshot(), 2);
   const auto snapshot = open_snapshot(folder / "snap");
-  EXPECT_THAT([&] { snapshot->read(1, "temperature"); },
-              ::testing::ThrowsMessage<DataError>(
-                  ::testing::AllOf(HasSubstr("no field 'temperature'"), HasSubstr("potential"))));
+  EXPECT_THAT(
+      [&] { snapshot->read(1, "temperature"); },
+      ThrowsMessage<DataError>(AllOf(HasSubstr("no field 'temperature'"), HasSubstr("potential"))));
   EXPECT_THAT([&] { snapshot->read(3, "position"); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("types with particles are 0, 1, 4")));
+              ThrowsMessage<DataError>(HasSubstr("types with particles are 0, 1, 4")));
 }
 
 TEST(GadgetBinaryFields, TypesOfAnUnknownBlockFollowFromItsLength) {
@@ -388,4 +381,4 @@ TEST(GadgetBinaryLarge, RecordsBeyondFourGibibytesAreFollowed) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -3,11 +3,8 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::HasSubstr;
 
 TEST(GadgetBinaryDamage, NoPositionsIsRefused) {
   const TemporaryFolder folder;
@@ -67,4 +64,4 @@ TEST(GadgetBinaryDamage, ArbitraryBytesNeverCrash) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

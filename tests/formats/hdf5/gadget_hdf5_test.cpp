@@ -7,13 +7,8 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::HasSubstr;
 
 struct NamedStyle {
   const char* name;
@@ -297,4 +292,4 @@ TEST(GadgetHdf5, AnHdf5FileOfAnotherKindIsRefusedWithItsGroups) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

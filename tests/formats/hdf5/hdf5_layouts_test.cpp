@@ -1,45 +1,17 @@
-#include <array>
-
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class Hdf5Layout : public ::testing::Test {
  protected:
   const TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "particles.h5";
 };
-
-TEST_F(Hdf5Layout, RecordsAreColumnsByTheNamesOfTheirMembers) {
-  {
-    const Hdf5Output file = create_hdf5(path_);
-    write_records(file, "particles", {"x", "y", "z", "mass"}, {1, 2, 3, 10, 4, 5, 6, 20});
-  }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(10, 20));
-}
-
-TEST_F(Hdf5Layout, RecordsOfEachTypeAreTypesByTheirNames) {
-  {
-    const Hdf5Output file = create_hdf5(path_);
-    write_records(file, "run/dark_matter", {"x", "y", "z"}, {1, 2, 3});
-    write_records(file, "run/stars", {"x", "y", "z"}, {4, 5, 6, 7, 8, 9});
-  }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_EQ(snapshot->info().find_type(1)->count, 1U);
-  EXPECT_THAT(absolute_positions(*snapshot, 4), ElementsAre(4, 5, 6, 7, 8, 9));
-}
 
 // {pos: 3 floats, more: {id: 64 bits}, name: text}
 TEST_F(Hdf5Layout, ArraysAndRecordsInRecordsAreRead) {
@@ -88,71 +60,6 @@ TEST_F(Hdf5Layout, UnitsThatAstropyKeepsBesideATableAreRead) {
   EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.7F));
 }
 
-TEST_F(Hdf5Layout, AxesOneAfterTheOtherAreRows) {
-  {
-    const Hdf5Output file = create_hdf5(path_);
-    write_values(file, "pos", {1, 2, 3, 4, 10, 20, 30, 40, 100, 200, 300, 400}, 4);
-    write_values(file, "mass", {5, 6, 7, 8});
-  }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_THAT(absolute_positions(*snapshot, 0),
-              ElementsAre(1, 10, 100, 2, 20, 200, 3, 30, 300, 4, 40, 400));
-  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(5, 6, 7, 8));
-}
-
-TEST_F(Hdf5Layout, ThreeRowsOfThreeAreParticlesAndNoAxes) {
-  {
-    const Hdf5Output file = create_hdf5(path_);
-    write_values(file, "pos", {1, 2, 3, 4, 5, 6, 7, 8, 9}, 3);
-  }
-  EXPECT_THAT(absolute_positions(*open_snapshot(path_), 0), ElementsAre(1, 2, 3, 4, 5, 6, 7, 8, 9));
-}
-
-TEST_F(Hdf5Layout, GroupsOfAxesAreVectorsAtAnyDepth) {
-  {
-    const Hdf5Output file = create_hdf5(path_);
-    for (const auto& [axis, first] :
-         std::vector<std::pair<std::string, double>>{{"x", 1}, {"y", 2}, {"z", 3}}) {
-      write_values(file, "run/7/gas/position/" + axis, {first, first + 3});
-      write_values(file, "run/7/gas/velocity/" + axis, {10 * first, 10 * (first + 3)});
-    }
-    write_values(file, "run/7/gas/mass", {5, 6});
-  }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_THAT(values_of(snapshot->read(0, "velocity")), ElementsAre(10, 20, 30, 40, 50, 60));
-  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(5, 6));
-}
-
-TEST_F(Hdf5Layout, ColumnsOfVaexAreReadWithTheirUnits) {
-  {
-    const Hdf5Output file = create_hdf5(path_);
-    for (const char* const axis : {"x", "y", "z"}) {
-      write_values(file, std::string("table/columns/") + axis + "/data", {1, 2});
-      write_text(file, std::string("table/columns/") + axis, "unit", "kpc");
-    }
-    write_values(file, "table/columns/mass/data", {3, 4});
-    write_values(file, "table/columns/temperature/data", {5, 6});
-    write_values(file, "table/columns/temperature/mask", {0, 1});
-  }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_EQ(require_field(snapshot->info(), 0, "position").unit, "kpc");
-  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(3, 4));
-  EXPECT_EQ(find_field(snapshot->info().types.front(), "temperature"), nullptr);
-  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("temperature")));
-}
-
-TEST_F(Hdf5Layout, DataFramesOfPandasAreRead) {
-  {
-    const Hdf5Output file = create_hdf5(path_);
-    write_lines(file, "df/block0_items", {"x", "y", "z", "mass"});
-    write_values(file, "df/block0_values", {1, 2, 3, 10, 4, 5, 6, 20}, 4);
-  }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(10, 20));
-}
-
 // format="table": arrays in records, whose columns attributes name as Python pickles lists.
 TEST_F(Hdf5Layout, TablesOfPandasAreRead) {
   struct Row {
@@ -179,16 +86,6 @@ TEST_F(Hdf5Layout, TablesOfPandasAreRead) {
   EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(10, 20));
 }
 
-TEST_F(Hdf5Layout, PositionsInAPlaneHaveNoHeight) {
-  {
-    const Hdf5Output file = create_hdf5(path_);
-    write_values(file, "pos", {1, 2, 4, 5, 7, 8, 9, 9}, 2);
-  }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 0, 4, 5, 0, 7, 8, 0, 9, 9, 0));
-  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("pos z is 0 for all")));
-}
-
 // A link back to the root makes the tree of groups endless.
 TEST_F(Hdf5Layout, GroupsThatLeadInCirclesHaveAnEnd) {
   {
@@ -197,9 +94,8 @@ TEST_F(Hdf5Layout, GroupsThatLeadInCirclesHaveAnEnd) {
     H5Lcreate_soft("/", file.id(), "a/b", H5P_DEFAULT, H5P_DEFAULT);
     H5Lcreate_soft("/", file.id(), "a/c", H5P_DEFAULT, H5P_DEFAULT);
   }
-  EXPECT_THAT([&] { open_snapshot(path_); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("no positions")));
+  EXPECT_THAT([&] { open_snapshot(path_); }, ThrowsMessage<DataError>(HasSubstr("no positions")));
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -5,17 +5,11 @@
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_writer.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 class Hdf5Leads : public ::testing::Test {
  protected:
@@ -185,4 +179,4 @@ TEST_F(Hdf5Leads, OfPatternsToFifosAreRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -7,12 +7,9 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using Properties = Hdf5Handle<H5Pclose>;
 
 // Two particles, and the dataset Field with properties of its own.
@@ -35,12 +32,7 @@ class Hdf5Storage : public ::testing::Test {
   std::string refusal_of_field() {
     file_ = Hdf5Output();
     const auto snapshot = open_snapshot(path_);
-    try {
-      snapshot->read(0, "Field");
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>([&] { snapshot->read(0, "Field"); });
   }
   const Hdf5Silence silence_;
   const TemporaryFolder folder_;
@@ -173,4 +165,4 @@ TEST_F(Hdf5Storage, AVirtualDatasetMadeOfItselfIsRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

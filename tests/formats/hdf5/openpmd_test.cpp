@@ -4,15 +4,10 @@
 #include "splotchcl/snapshot_file.h"
 #include "temporary_folder.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
-using ::testing::Contains;
 using ::testing::DoubleNear;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Pointwise;
 
 class OpenPmd : public ::testing::Test {
@@ -99,4 +94,4 @@ TEST_F(OpenPmd, AnIterationIsASnapshotByItsPath) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,130 +1,91 @@
 
-#include <cmath>
-
 #include "formats/halo_catalog.h"
+#include "formats/hdf5/described_hdf5.h"
 #include "formats/hdf5/hdf5_file.h"
-#include "formats/hdf5/hdf5_values.h"
-#include "formats/snapshot_checks.h"
-#include "paths.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Optional;
 using namespace splotchcl::test;
 
-void write_dataset(hid_t file, const std::string& path, const std::vector<double>& values,
-                   hsize_t width = 1) {
-  const hsize_t shape[2] = {values.size() / width, width};
-  const Hdf5Handle<H5Sclose> space(H5Screate_simple(width > 1 ? 2 : 1, shape, nullptr));
-  const Hdf5Handle<H5Pclose> links(H5Pcreate(H5P_LINK_CREATE));
-  H5Pset_create_intermediate_group(links.id(), 1);
-  const Hdf5Handle<H5Dclose> dataset(H5Dcreate2(file, path.c_str(), H5T_IEEE_F64LE, space.id(),
-                                                links.id(), H5P_DEFAULT, H5P_DEFAULT));
-  H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+class Phantom : public ::testing::TestWithParam<SnapshotRow> {};
+
+TEST_P(Phantom, IsReadOrRefused) {
+  const TemporaryFolder folder;
+  write_described_hdf5(folder / "dump.h5", GetParam().contents.front());
+  expect_snapshot(folder / "dump.h5", GetParam().options, GetParam().expected);
 }
 
 // Gas, dust, gas.
-void write_phantom(const std::filesystem::path& path, bool has_positions = true,
-                   const std::vector<double>& h = {1, 2, 4},
-                   const std::vector<double>& itypes = {1, 7, 1}, hsize_t itype_width = 1) {
-  const Hdf5Handle<H5Fclose> file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-  write_dataset(file.id(), "header/massoftype", {0.5, 0, 0, 0, 0, 0, 0.125});
-  write_dataset(file.id(), "header/hfact", {1.2});
-  write_dataset(file.id(), "header/time", {7});
-  if (has_positions) write_dataset(file.id(), "particles/xyz", {1, 2, 3, 4, 5, 6, 7, 8, 9}, 3);
-  write_dataset(file.id(), "particles/h", h);
-  write_dataset(file.id(), "particles/itype", itypes, itype_width);
-  write_dataset(file.id(), "particles/dustfrac", {1, 2, 3, 4, 5, 6}, 2);
-  write_dataset(file.id(), "sinks/xyz", {0, 0, 0}, 3);
-}
+const std::string header =
+    "header/massoftype: 0.5 0 0 0 0 0 0.125 | header/hfact: 1.2 | header/time: 7 | "
+    "particles/dustfrac x2: 1 2 3 4 5 6 | sinks/xyz x3: 0 0 0 | ";
+const std::string places = "particles/xyz x3: 1 2 3 4 5 6 7 8 9 | ",
+                  types = "particles/itype: 1 7 1 | ", lengths = "particles/h: 1 2 4";
 
-TEST(Phantom, TypesAreToldApart) {
+INSTANTIATE_TEST_SUITE_P(
+    Dumps, Phantom,
+    ::testing::ValuesIn(std::vector<SnapshotRow>{
+        {"TypesAreToldApart",
+         {header + places + types + lengths},
+         "format Phantom HDF5 | time 7 | types 2 | count 2 | count/2 1 | mass 0.5 | mass/2 0.125 | "
+         "position 1 2 3 7 8 9 | position/2 4 5 6"},
+        {"SmoothingLengthsReachTheEndOfTheKernel",
+         {header + places + types + lengths},
+         "smoothing_length 2 8 | note reach 2 h"},
+        // 0.5 (1.2 / h)^3
+        {"DensitiesFollowFromSmoothingLengths",
+         {header + places + types + lengths},
+         "density 0.864 0.0135"},
+        {"WhatIsLeftOutIsNoted",
+         {header + places + types + lengths},
+         "note dustfrac | note sinks left out, as they have no smoothing length: 1"},
+        {"WithoutPositionsIsRefused", {header + types + lengths}, "refused no positions"},
+        {"DatasetsOfOtherLengthsAreRefused",
+         {header + places + types + "particles/h: 1 2"},
+         "refused h has 2 rows, but there are 3 positions"},
+        {"ADensityOfTheFilesOwnGoesBeforeThatFromSmoothingLengths",
+         {header + places + types + lengths + " | particles/rho: 10 20 30"},
+         "density 10 30"},
+        {"ParticlesOfNoKnownTypeAreKeptAndNoted",
+         {header + places + "particles/itype: -1 0 nan | " + lengths},
+         "count 1 | count/2 2 | note 2 particles are of types without"},
+        {"TypesThatAreNotOneNumberPerParticleAreRefused",
+         {header + places + "particles/itype x2: 1 1 | " + lengths},
+         "refused itype is not one number"},
+        {"AGroupWithoutAHeaderIsRead",
+         {"particles/xyz x3: 1 2 3 4 5 6 | particles/h: 0.5 1 | particles/m: 7 8 | "
+          "particles/rho: 9 10"},
+         "format HDF5 with a group particles, after sphNG | mass 7 8 | density 9 10 | "
+         "smoothing_length 1 2 | note as in sphNG it is taken to reach 2 h"},
+        {"AxesOfTheirOwnAreJoined",
+         {"particles/x: 1 4 1e6 | particles/y: 2 5 1e6 | particles/z: 3 6 1e6 | "
+          "particles/vx: 1 2 3 | particles/vy: 4 5 6 | particles/vz: 7 8 9"},
+         "position 1 2 3 4 5 6 1e6 1e6 1e6 | velocity 1 4 7 2 5 8 3 6 9 | no mass"},
+        {"PhasesTellTheTypes",
+         {"particles/xyz x3: 1 1 1 2 2 2 3 3 3 | particles/iphase i8: 0 -1 3"},
+         "iphase 0 | iphase/4 3 | iphase/5 -1"},
+        {"AxesOfDifferentLengthAreRefused",
+         {"particles/x: 1 4 | particles/y: 2 5 7 | particles/z: 3 6"},
+         "refused y has 3 rows, but there are 2 positions"},
+        {"AGroupWithoutPositionsIsRefused",
+         {"particles/x: 1 4 | particles/h: 1 4"},
+         "refused no positions"}}),
+    name_of_row);
+
+// From the middle of all, or, of floats, from 0.
+TEST(PhantomOrigin, IsWherePositionsCountFrom) {
   const TemporaryFolder folder;
-  write_phantom(folder / "dump.h5");
+  write_described_hdf5(folder / "dump.h5", header + places + types + lengths);
   const auto snapshot = open_snapshot(folder / "dump.h5");
-  EXPECT_EQ(snapshot->info().format, "Phantom HDF5");
-  EXPECT_EQ(snapshot->info().time, 7);
-  ASSERT_EQ(snapshot->info().types.size(), 2U);
-  EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
-  EXPECT_EQ(snapshot->info().find_type(2)->count, 1U);
-  EXPECT_EQ(snapshot->read(0, "mass").uniform_value(), 0.5F);
-  EXPECT_EQ(snapshot->read(2, "mass").uniform_value(), 0.125F);
-  const Vec3 origin = snapshot->position_origin();
-  EXPECT_EQ(origin.a[0], 4);
+  EXPECT_EQ(snapshot->position_origin().a[0], 4);
   EXPECT_THAT(values_of(snapshot->read(0, "position")), ElementsAre(-3, -3, -3, 3, 3, 3));
-  EXPECT_THAT(values_of(snapshot->read(2, "position")), ElementsAre(0, 0, 0));
-}
-
-TEST(Phantom, SmoothingLengthsReachTheEndOfTheKernel) {
-  const TemporaryFolder folder;
-  write_phantom(folder / "dump.h5");
-  const auto snapshot = open_snapshot(folder / "dump.h5");
-  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(2, 8));
-  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("reach 2 h")));
-}
-
-TEST(Phantom, DensitiesFollowFromSmoothingLengths) {
-  const TemporaryFolder folder;
-  write_phantom(folder / "dump.h5");
-  const Column density = open_snapshot(folder / "dump.h5")->read(0, "density");
-  EXPECT_FLOAT_EQ(density[0], static_cast<float>(0.5 * std::pow(1.2, 3)));
-  EXPECT_FLOAT_EQ(density[1], static_cast<float>(0.5 * std::pow(1.2 / 4, 3)));
-}
-
-TEST(Phantom, WhatIsLeftOutIsNoted) {
-  const TemporaryFolder folder;
-  write_phantom(folder / "dump.h5");
-  const auto snapshot = open_snapshot(folder / "dump.h5");
-  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("dustfrac")));
-  EXPECT_THAT(snapshot->info().notes,
-              Contains(HasSubstr("sinks left out, as they have no smoothing length: 1")));
-}
-
-TEST(Phantom, WithoutPositionsIsRefused) {
-  const TemporaryFolder folder;
-  write_phantom(folder / "dump.h5", false);
-  EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("no positions"));
-}
-
-TEST(Phantom, DatasetsOfOtherLengthsAreRefused) {
-  const TemporaryFolder folder;
-  write_phantom(folder / "dump.h5", true, {1, 2});
-  EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("h has 2 rows, but there are 3 positions"));
-}
-
-TEST(Phantom, ADensityOfTheFilesOwnGoesBeforeThatFromSmoothingLengths) {
-  const TemporaryFolder folder;
-  write_phantom(folder / "dump.h5");
-  {
-    const Hdf5Handle<H5Fclose> file(
-        H5Fopen((folder / "dump.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
-    write_dataset(file.id(), "particles/rho", {10, 20, 30});
-  }
-  const Column density = open_snapshot(folder / "dump.h5")->read(0, "density");
-  EXPECT_THAT(values_of(density), ElementsAre(10, 30));
-}
-
-TEST(Phantom, ParticlesOfNoKnownTypeAreKeptAndNoted) {
-  const TemporaryFolder folder;
-  const double nan = std::nan("");
-  write_phantom(folder / "dump.h5", true, {1, 2, 4}, {-1, 0, nan});
-  const auto snapshot = open_snapshot(folder / "dump.h5");
-  EXPECT_EQ(snapshot->info().find_type(0)->count, 1U);
-  EXPECT_EQ(snapshot->info().find_type(2)->count, 2U);
-  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("2 particles are of types without")));
-}
-
-TEST(Phantom, TypesThatAreNotOneNumberPerParticleAreRefused) {
-  const TemporaryFolder folder;
-  write_phantom(folder / "dump.h5", true, {1, 2, 4}, {1, 1}, 2);
-  EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("itype is not one number"));
+  write_described_hdf5(folder / "dump.h5",
+                       "particles/x f32: 1e-7 1000 | particles/y f32: 0 0 | particles/z f32: 0 0");
+  EXPECT_EQ(open_snapshot(folder / "dump.h5")->read(0, "position")[0], 1e-7F);
 }
 
 TEST(RealPhantom, ADumpIsRead) {
@@ -134,77 +95,6 @@ TEST(RealPhantom, ADumpIsRead) {
   EXPECT_EQ(snapshot->info().find_type(0)->count, 1000U);
   EXPECT_EQ(snapshot->read(0, "mass").uniform_value(), 5.05e-05F);
   EXPECT_EQ(snapshot->read(0, "position").size(), 3000U);
-}
-
-TEST(ParticlesGroup, WithoutAHeaderIsRead) {
-  const TemporaryFolder folder;
-  {
-    const Hdf5Output file = create_hdf5(folder / "dump.h5");
-    write_values(file, "particles/xyz", {1, 2, 3, 4, 5, 6}, 3);
-    write_values(file, "particles/h", {0.5, 1});
-    write_values(file, "particles/m", {7, 8});
-    write_values(file, "particles/rho", {9, 10});
-  }
-  const auto snapshot = open_snapshot(folder / "dump.h5");
-  EXPECT_EQ(snapshot->info().format, "HDF5 with a group particles, after sphNG");
-  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
-  EXPECT_THAT(values_of(snapshot->read(0, "density")), ElementsAre(9, 10));
-  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(1, 2));
-  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("as in sphNG it is taken to reach 2 h")));
-}
-
-TEST(ParticlesGroup, AxesOfTheirOwnAreJoined) {
-  const TemporaryFolder folder;
-  {
-    const Hdf5Output file = create_hdf5(folder / "dump.h5");
-    write_values(file, "particles/x", {1, 4, 1e6});
-    write_values(file, "particles/y", {2, 5, 1e6});
-    write_values(file, "particles/z", {3, 6, 1e6});
-    write_values(file, "particles/vx", {1, 2, 3});
-    write_values(file, "particles/vy", {4, 5, 6});
-    write_values(file, "particles/vz", {7, 8, 9});
-  }
-  const auto snapshot = open_snapshot(folder / "dump.h5");
-  EXPECT_EQ(snapshot->position_origin().a[0], 4);
-  EXPECT_THAT(values_of(snapshot->read(0, "position")),
-              ElementsAre(-3, -3, -3, 0, 0, 0, 999996, 999995, 999994));
-  EXPECT_THAT(values_of(snapshot->read(0, "velocity")), ElementsAre(1, 4, 7, 2, 5, 8, 3, 6, 9));
-  EXPECT_FALSE(has_field(*snapshot, 0, "mass"));
-}
-
-TEST(ParticlesGroup, FloatsOfAxesOfTheirOwnAreTakenAsTheyAre) {
-  const TemporaryFolder folder;
-  {
-    const Hdf5Output file = create_hdf5(folder / "dump.h5");
-    write_values(file, "particles/x", {1e-7, 1000}, 1, H5T_IEEE_F32LE);
-    write_values(file, "particles/y", {0, 0}, 1, H5T_IEEE_F32LE);
-    write_values(file, "particles/z", {0, 0}, 1, H5T_IEEE_F32LE);
-  }
-  EXPECT_EQ(open_snapshot(folder / "dump.h5")->read(0, "position")[0], 1e-7F);
-}
-
-TEST(ParticlesGroup, PhasesTellTheTypes) {
-  const TemporaryFolder folder;
-  {
-    const Hdf5Output file = create_hdf5(folder / "dump.h5");
-    write_values(file, "particles/xyz", {1, 1, 1, 2, 2, 2, 3, 3, 3}, 3);
-    write_values(file, "particles/iphase", {0, -1, 3}, 1, H5T_STD_I8LE);
-  }
-  const auto snapshot = open_snapshot(folder / "dump.h5");
-  EXPECT_THAT(values_of(snapshot->read(0, "iphase")), ElementsAre(0));
-  EXPECT_THAT(values_of(snapshot->read(4, "iphase")), ElementsAre(3));
-  EXPECT_THAT(values_of(snapshot->read(5, "iphase")), ElementsAre(-1));
-}
-
-TEST(ParticlesGroup, AxesOfDifferentLengthAreRefused) {
-  const TemporaryFolder folder;
-  {
-    const Hdf5Output file = create_hdf5(folder / "dump.h5");
-    write_values(file, "particles/x", {1, 4});
-    write_values(file, "particles/y", {2, 5, 7});
-    write_values(file, "particles/z", {3, 6});
-  }
-  EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("y has 3 rows, but there are 2 positions"));
 }
 
 TEST(ParticlesGroup, RowsThatWereNeverWrittenAreRefusedBeforeMemoryIsTaken) {
@@ -221,16 +111,6 @@ TEST(ParticlesGroup, RowsThatWereNeverWrittenAreRefusedBeforeMemoryIsTaken) {
                                                   H5P_DEFAULT));
   }
   EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("they are not all in the file"));
-}
-
-TEST(ParticlesGroup, WithoutPositionsIsRefused) {
-  const TemporaryFolder folder;
-  {
-    const Hdf5Output file = create_hdf5(folder / "dump.h5");
-    write_values(file, "particles/x", {1, 4});
-    write_values(file, "particles/h", {1, 4});
-  }
-  EXPECT_THAT(refusal(folder / "dump.h5"), HasSubstr("no positions"));
 }
 
 class HaloCatalog : public ::testing::Test {
@@ -255,12 +135,7 @@ class HaloCatalog : public ::testing::Test {
     return all;
   }
   std::string refusal_of(const std::string& name, std::uint64_t number) const {
-    try {
-      read_halo(folder_ / name, number, 0);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>([&] { read_halo(folder_ / name, number, 0); });
   }
   const TemporaryFolder folder_;
 };

@@ -1,113 +1,84 @@
-#include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <limits>
-
 #include "formats/numpy/numpy_writer.h"
 #include "formats/snapshot_checks.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
 
-using namespace splotchcl::test;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-
-// Positions as they were written, offsets from the origin added up again.
-std::vector<double> positions(const Snapshot& snapshot) {
-  const Column offsets = snapshot.read(0, "position");
-  std::vector<double> values;
-  for (std::size_t i = 0; i < offsets.size(); ++i) {
-    values.push_back(static_cast<double>(offsets[i]) + snapshot.position_origin().a[i % 3]);
+class NumpyArray : public ::testing::Test {
+ protected:
+  void write(const std::string& type, const std::string& shape, const std::string& values) const {
+    write_bytes(path_, numpy_bytes(numpy_header(type, shape), values));
   }
-  return values;
-}
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "a.npy";
+};
 
-TEST(NumpyArray, RowsOfThreeArePositions) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "a.npy",
-              numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6})));
-  const auto snapshot = open_snapshot(folder / "a.npy");
+TEST_F(NumpyArray, RowsOfThreeArePositions) {
+  write("<f4", "(2, 3)", bytes_of<float>({1, 2, 3, 4, 5, 6}));
+  const auto snapshot = open_snapshot(path_);
   EXPECT_EQ(snapshot->info().format, "NumPy array");
   EXPECT_EQ(snapshot->info().find_type(0)->count, 2U);
-  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
-TEST(NumpyArray, FloatsAreTakenAsTheyAre) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, FloatsAreTakenAsTheyAre) {
   const std::vector<float> stored = {1e-7F, 0, 0, 1000, 0, 0, 1001, 0, 0};
-  write_bytes(folder / "a.npy",
-              numpy_bytes(numpy_header("<f4", "(3, 3)"), bytes_of<float>(stored)));
-  const auto snapshot = open_snapshot(folder / "a.npy");
+  write("<f4", "(3, 3)", bytes_of<float>(stored));
+  const auto snapshot = open_snapshot(path_);
   EXPECT_EQ(values_of(snapshot->read(0, "position")), stored);
   EXPECT_EQ(snapshot->position_origin().a[0], 0);
 }
 
-TEST(NumpyArray, DoublesAreOffsetsFromAnOrigin) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, DoublesAreOffsetsFromAnOrigin) {
   const std::vector<double> stored = {1e6 + 1e-7, 0, 0, 1e6, 0, 0, 1e6, 0, 0};
-  write_bytes(folder / "a.npy",
-              numpy_bytes(numpy_header("<f8", "(3, 3)"), bytes_of<double>(stored)));
-  EXPECT_NEAR(positions(*open_snapshot(folder / "a.npy"))[0], stored[0], 1e-9);
+  write("<f8", "(3, 3)", bytes_of<double>(stored));
+  EXPECT_NEAR(absolute_positions(*open_snapshot(path_), 0)[0], stored[0], 1e-9);
 }
 
-TEST(NumpyArray, HalvesAreRead) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, HalvesAreRead) {
   // 1, -2, the largest, the smallest, infinity, a third.
-  write_bytes(
-      folder / "a.npy",
-      numpy_bytes(numpy_header("<f2", "(2, 3)"),
-                  bytes_of<std::uint16_t>({0x3c00, 0xc000, 0x7bff, 0x0001, 0x7c00, 0x3555})));
-  EXPECT_THAT(positions(*open_snapshot(folder / "a.npy")),
+  write("<f2", "(2, 3)", bytes_of<std::uint16_t>({0x3c00, 0xc000, 0x7bff, 0x0001, 0x7c00, 0x3555}));
+  EXPECT_THAT(absolute_positions(*open_snapshot(path_), 0),
               ElementsAre(1, -2, 65504, 5.960464477539063e-8,
                           std::numeric_limits<double>::infinity(), 0.333251953125));
 }
 
-TEST(NumpyArray, FurtherColumnsHaveNumbersOrTheNamesThatAreGiven) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "a.npy", numpy_bytes(numpy_header("<f8", "(2, 5)"),
-                                            bytes_of<double>({1, 2, 3, 7, 8, 4, 5, 6, 9, 10})));
-  const auto plain = open_snapshot(folder / "a.npy");
+TEST_F(NumpyArray, FurtherColumnsHaveNumbersOrTheNamesThatAreGiven) {
+  write("<f8", "(2, 5)", bytes_of<double>({1, 2, 3, 7, 8, 4, 5, 6, 9, 10}));
+  const auto plain = open_snapshot(path_);
   EXPECT_THAT(values_of(plain->read(0, "column_4")), ElementsAre(7, 9));
-  const auto named = open_snapshot(folder / "a.npy", {{"mass", "-", "x", "y", "z"}});
+  const auto named = open_snapshot(path_, {{"mass", "-", "x", "y", "z"}});
   EXPECT_THAT(values_of(named->read(0, "mass")), ElementsAre(1, 4));
-  EXPECT_THAT(positions(*named), ElementsAre(3, 7, 8, 6, 9, 10));
+  EXPECT_THAT(absolute_positions(*named, 0), ElementsAre(3, 7, 8, 6, 9, 10));
   EXPECT_FALSE(has_field(*named, 0, "column_2"));
 }
 
-TEST(NumpyArray, ThatIsAnImageIsRefused) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, ThatIsAnImageIsRefused) {
   for (const char* const shape : {"(6, 64)", "(2, 3, 64)"}) {
-    write_bytes(folder / "a.npy",
-                numpy_bytes(numpy_header("<f4", shape), bytes_of(std::vector<float>(384, 1))));
-    EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("as images and maps are"));
+    write("<f4", shape, bytes_of(std::vector<float>(384, 1)));
+    EXPECT_THAT(refusal(path_), HasSubstr("as images and maps are"));
   }
 }
 
-TEST(NumpyArray, OfManyColumnsIsReadByTheirNames) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "a.npy",
-              numpy_bytes(numpy_header("<f4", "(6, 64)"), bytes_of(std::vector<float>(384, 1))));
+TEST_F(NumpyArray, OfManyColumnsIsReadByTheirNames) {
+  write("<f4", "(6, 64)", bytes_of(std::vector<float>(384, 1)));
   std::vector<std::string> names(64, "-");
   names[0] = "x", names[1] = "y", names[2] = "z";
-  EXPECT_EQ(open_snapshot(folder / "a.npy", {names})->info().find_type(0)->count, 6U);
+  EXPECT_EQ(open_snapshot(path_, {names})->info().find_type(0)->count, 6U);
 }
 
-TEST(NumpyArray, FortranOrderAndBigEndianAreRead) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, FortranOrderAndBigEndianAreRead) {
   std::string data = bytes_of<float>({1, 4, 2, 5, 3, 6});
   for (std::size_t i = 0; i < data.size(); i += 4)
     std::reverse(data.begin() + static_cast<std::ptrdiff_t>(i),
                  data.begin() + static_cast<std::ptrdiff_t>(i) + 4);
-  write_bytes(folder / "a.npy", numpy_bytes(numpy_header(">f4", "(2, 3)", true), data));
-  EXPECT_THAT(positions(*open_snapshot(folder / "a.npy")), ElementsAre(1, 2, 3, 4, 5, 6));
+  write_bytes(path_, numpy_bytes(numpy_header(">f4", "(2, 3)", true), data));
+  EXPECT_THAT(absolute_positions(*open_snapshot(path_), 0), ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
-TEST(NumpyArray, RecordsWithNamesAreRead) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, RecordsWithNamesAreRead) {
   const std::string header =
       "{'descr': [('pos', '<f8', (3,)), ('hsml', '<f4'), ('id', '<u8'), ('name', '<U2'), "
       "('flag', '|b1')], 'fortran_order': False, 'shape': (2,)}";
@@ -119,9 +90,9 @@ TEST(NumpyArray, RecordsWithNamesAreRead) {
     data += bytes_of<std::uint64_t>({(std::uint64_t{1} << 63) + i});
     data += std::string(8, 'x') + static_cast<char>(i);
   }
-  write_bytes(folder / "a.npy", numpy_bytes(header, data, 2));
-  const auto snapshot = open_snapshot(folder / "a.npy");
-  EXPECT_THAT(positions(*snapshot), ElementsAre(0, 1, 2, 10, 11, 12));
+  write_bytes(path_, numpy_bytes(header, data, 2));
+  const auto snapshot = open_snapshot(path_);
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(0, 1, 2, 10, 11, 12));
   EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 10.5F));
   EXPECT_THAT(values_of(snapshot->read(0, "flag")), ElementsAre(0, 1));
   EXPECT_THAT(snapshot->read_ids(0),
@@ -129,51 +100,43 @@ TEST(NumpyArray, RecordsWithNamesAreRead) {
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("name")));
 }
 
-TEST(NumpyArray, TruncatedAtAnyByteIsRefused) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, TruncatedAtAnyByteIsRefused) {
   const std::string whole =
       numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6}));
   for (std::size_t size = 0; size < whole.size(); ++size) {
-    write_bytes(folder / "a.npy", whole.substr(0, size));
-    ASSERT_NE(refusal(folder / "a.npy"), "") << "cut to " << size << " bytes";
+    write_bytes(path_, whole.substr(0, size));
+    ASSERT_NE(refusal(path_), "") << "cut to " << size << " bytes";
   }
-  write_bytes(folder / "a.npy", whole + "x");
-  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("25 bytes of values, expected 24"));
+  write_bytes(path_, whole + "x");
+  EXPECT_THAT(refusal(path_), HasSubstr("25 bytes of values, expected 24"));
 }
 
-TEST(NumpyArray, ShapesThatOverflowAreRefused) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "a.npy",
-              numpy_bytes(numpy_header("<f4", "(4611686018427387904, 3)"), std::string(24, 'x')));
-  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("overflows"));
-  write_bytes(folder / "a.npy",
-              numpy_bytes(numpy_header("<f4", "(1000000000000, 3)"), std::string(24, 'x')));
-  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("24 bytes of values"));
+TEST_F(NumpyArray, ShapesThatOverflowAreRefused) {
+  write("<f4", "(4611686018427387904, 3)", std::string(24, 'x'));
+  EXPECT_THAT(refusal(path_), HasSubstr("overflows"));
+  write("<f4", "(1000000000000, 3)", std::string(24, 'x'));
+  EXPECT_THAT(refusal(path_), HasSubstr("24 bytes of values"));
 }
 
-TEST(NumpyArray, TwoColumnsAreNotPositions) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "a.npy",
-              numpy_bytes(numpy_header("<f4", "(3, 2)"), bytes_of<float>({1, 2, 3, 4, 5, 6})));
-  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("save its transpose"));
+TEST_F(NumpyArray, TwoColumnsAreNotPositions) {
+  write("<f4", "(3, 2)", bytes_of<float>({1, 2, 3, 4, 5, 6}));
+  EXPECT_THAT(refusal(path_), HasSubstr("save its transpose"));
 }
 
-TEST(NumpyArray, HeadersThatAreNoPythonAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, HeadersThatAreNoPythonAreRefused) {
   for (const char* header :
        {"", "{'descr': '<f4'", "{'descr': '<f4', 'shape': (2, 3)}", "[[[[[[[[[[[[[[[[[[[[[[",
         "{'descr': 'f', 'fortran_order': False, 'shape': (2, 3)}",
         "{'descr': [('x', [('y', '<f4')])], 'fortran_order': False, 'shape': (2,)}",
         "{'descr': '<f4', 'fortran_order': False, 'shape': (-2, 3)}"}) {
-    write_bytes(folder / "a.npy", numpy_bytes(header, std::string(24, 'x')));
-    EXPECT_NE(refusal(folder / "a.npy"), "") << header;
+    write_bytes(path_, numpy_bytes(header, std::string(24, 'x')));
+    EXPECT_NE(refusal(path_), "") << header;
   }
 }
 
-TEST(NumpyArray, OfPythonsObjectsIsRefusedByTheirName) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "a.npy", numpy_bytes(numpy_header("|O", "(2,)"), "a pickle"));
-  EXPECT_THAT(refusal(folder / "a.npy"), HasSubstr("objects of Python"));
+TEST_F(NumpyArray, OfPythonsObjectsIsRefusedByTheirName) {
+  write("|O", "(2,)", "a pickle");
+  EXPECT_THAT(refusal(path_), HasSubstr("objects of Python"));
 }
 
 class NumpyArchive : public ::testing::TestWithParam<bool> {};
@@ -196,7 +159,7 @@ TEST_P(NumpyArchive, ArraysBecomeFields) {
   EXPECT_EQ(snapshot->info().format, "NumPy archive");
   EXPECT_EQ(snapshot->info().time, 0.25);
   EXPECT_EQ(snapshot->info().box_size, 64);
-  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8));
   EXPECT_THAT(snapshot->read_ids(0), ElementsAre(5, 6));
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("halo_mass")));
@@ -210,7 +173,8 @@ TEST_P(NumpyArchive, AxesInArraysOfTheirOwnAreJoined) {
   write_zip(folder / "a.npz",
             {{"z.npy", axis({3, 6})}, {"y.npy", axis({2, 5})}, {"x.npy", axis({1, 4})}},
             GetParam());
-  EXPECT_THAT(positions(*open_snapshot(folder / "a.npz")), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(absolute_positions(*open_snapshot(folder / "a.npz"), 0),
+              ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
 TEST_P(NumpyArchive, AnAxisOfAnotherLengthIsNotTakenForZero) {
@@ -219,7 +183,7 @@ TEST_P(NumpyArchive, AnAxisOfAnotherLengthIsNotTakenForZero) {
   const std::string three = numpy_bytes(numpy_header("<f4", "(3,)"), bytes_of<float>({1, 4, 7}));
   write_zip(folder / "a.npz", {{"x.npy", two}, {"y.npy", two}, {"z.npy", three}}, GetParam());
   EXPECT_THAT([&] { open_snapshot(folder / "a.npz"); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("z is not one number for each of 2")));
+              ThrowsMessage<DataError>(HasSubstr("z is not one number for each of 2")));
 }
 
 TEST_P(NumpyArchive, ASingleMassIsThatOfAllParticles) {
@@ -245,7 +209,7 @@ TEST_P(NumpyArchive, TheOnlyRowsOfThreeThatAreNothingElseArePositions) {
                {"vel.npy", threes}},
               GetParam());
     const auto snapshot = open_snapshot(folder / "a.npz");
-    EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6)) << name;
+    EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6)) << name;
     EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(7, 8)) << name;
     EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("taken for the positions"))) << name;
   }
@@ -260,7 +224,7 @@ TEST_P(NumpyArchive, ArraysOfPythonsObjectsAreLeftOutWithANote) {
               numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of<float>({1, 2, 3, 4, 5, 6}))}},
             GetParam());
   const auto snapshot = open_snapshot(folder / "a.npz");
-  EXPECT_THAT(positions(*snapshot), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("about, names")));
 }
 
@@ -296,11 +260,10 @@ TEST_P(NumpyArchive, ADamagedArchiveIsRefused) {
       DataError);
 }
 
-TEST(NumpyArray, NamesThatDoNotFitItsColumnsAreAWrongCall) {
-  const TemporaryFolder folder;
+TEST_F(NumpyArray, NamesThatDoNotFitItsColumnsAreAWrongCall) {
   const std::vector<float> values = {1, 2, 3, 4, 5, 6};
-  write_bytes(folder / "a.npy", numpy_bytes(numpy_header("<f4", "(2, 3)"), bytes_of(values)));
-  EXPECT_THROW(open_snapshot(folder / "a.npy", {{"x", "y"}}), UsageError);
+  write("<f4", "(2, 3)", bytes_of(values));
+  EXPECT_THROW(open_snapshot(path_, {{"x", "y"}}), UsageError);
 }
 
 TEST(NumpyArchives, AZipWithoutArraysIsRefused) {
@@ -310,4 +273,4 @@ TEST(NumpyArchives, AZipWithoutArraysIsRefused) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

@@ -1,30 +1,17 @@
 // Tables that hold several times one below the other.
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_format.h"
-#include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using namespace splotchcl::test;
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 class TableOfSteps : public ::testing::Test {
  protected:
   void write(const std::string& text) const { write_bytes(path_, text); }
   std::string refusal_of(const std::string& step) const {
-    try {
-      open_snapshot(path_ / step);
-    } catch (const DataError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_by<DataError>([&] { open_snapshot(path_ / step); });
   }
   const TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "table";
@@ -99,4 +86,4 @@ TEST_F(TableOfSteps, IsNoneWhereNoParticleIsThereTwice) {
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

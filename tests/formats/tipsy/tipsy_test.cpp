@@ -1,20 +1,11 @@
 
-#include <algorithm>
-#include <cstring>
-
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_writer.h"
-#include "paths.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
+#include "testing.h"
 
-namespace splotchcl {
+namespace splotchcl::test {
 namespace {
-
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using namespace splotchcl::test;
 
 class TipsyBytes {
  public:
@@ -215,8 +206,8 @@ TEST(TipsyArrays, ATruncatedArrayIsRefused) {
   write_bytes(folder / "snap.HI", "4\n0.5\n1.5\n2.5\n");
   const auto snapshot = open_snapshot(folder / "snap");
   EXPECT_THAT([&] { snapshot->read(4, "HI"); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("the end of the file as value 4")));
+              ThrowsMessage<DataError>(HasSubstr("the end of the file as value 4")));
 }
 
 }  // namespace
-}  // namespace splotchcl
+}  // namespace splotchcl::test

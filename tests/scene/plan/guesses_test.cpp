@@ -1,13 +1,8 @@
 #include "scene/plan/guesses.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstddef>
-#include <vector>
-
 #include "reference/frames.h"
 #include "splotchcl/plan.h"
+#include "testing.h"
 
 namespace splotchcl::test {
 namespace {

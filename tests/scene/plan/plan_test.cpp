@@ -1,19 +1,13 @@
 #include "splotchcl/plan.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <vector>
-
 #include "reference/frames.h"
 #include "scene/plan/blur_filter.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
 
 using Kind = Absorption::Kind;
-using ::testing::HasSubstr;
 
 DrawnComponent component(Kind kind, double factor = 0) {
   DrawnComponent component;

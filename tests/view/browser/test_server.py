@@ -414,7 +414,7 @@ def test_ctrl_c_ends_a_picture_that_is_drawn_in_one_part(view, run, tmp_path):
         page = PageSocket(opened)
         page.receive_until(lambda message: message.get("stage") == "preview")
         page.set(1, tolerance=0, component__0__absorption=2, component__0__size__factor=5)
-        time.sleep(4)
+        time.sleep(2)
         opened.process.send_signal(ending)
         # It would draw for a minute.
         opened.process.communicate(timeout=20)

@@ -1,18 +1,142 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
+// Kernels shared out to cells of grids and of the sky.
 #include <boost/qvm/vec_operations.hpp>
-#include <cmath>
-#include <map>
-#include <random>
 
+#include "cells/gaussian.h"
 #include "cells/healpix_grid.h"
 #include "cells/picture_of_the_sky.h"
+#include "cells/shares_along_an_axis.h"
+#include "cells/shares_in_shells.h"
 #include "cells/shares_on_the_sky.h"
+#include "cells/sky_lattice.h"
 #include "scene/constants.h"
+#include "testing.h"
 
 namespace splotchcl {
 namespace {
+
+double sum_of(const std::vector<CellShare>& shares) {
+  double sum = 0;
+  for (const CellShare& share : shares)
+    sum += share.part;
+  return sum;
+}
+
+TEST(GaussianBetween, KeepsItsDigitsFarOut) {
+  const double part = gaussian_between(5, 5.5, 1);
+  EXPECT_NEAR(part / (0.5 * (std::erfc(5.0) - std::erfc(5.5))), 1, 1e-14);
+  EXPECT_EQ(gaussian_between(-5.5, -5, 1), part);
+  EXPECT_DOUBLE_EQ(gaussian_between(-100, 100, 1), 1);
+}
+
+TEST(GaussianInShell, HasTheDensityTimesTheVolumeOfAThinShell) {
+  constexpr double sigma = 2, radius = 1e-4, width = 1e-6;
+  const double density = 1 / (std::pow(pi, 1.5) * std::pow(sigma, 3));
+  for (const double distance : {0.0, 1.0, 5.0}) {
+    const double expected =
+        density * std::exp(-std::pow(distance / sigma, 2)) * 4 * pi * radius * radius * width;
+    EXPECT_NEAR(
+        gaussian_in_shell(distance, radius - width / 2, radius + width / 2, sigma) / expected, 1,
+        1e-4);
+  }
+}
+
+TEST(GaussianInShell, AddsUpToTheWhole) {
+  for (const double distance : {0.0, 0.3, 7.0, 1e3}) {
+    std::vector<double> edges = {0};
+    while (edges.back() < 2e3)
+      edges.push_back(edges.back() + 0.01 + 0.1 * edges.back());
+    std::vector<CellShare> shares;
+    add_shares_in_shells(edges, distance, 1, shares);
+    EXPECT_NEAR(sum_of(shares), 1, 1e-9) << distance;
+  }
+}
+
+TEST(SharesAlongAnAxis, ArePeriodic) {
+  const CellsAlongAxis cells = {0, 0.25, 4, 1.0};
+  std::vector<SharesAlongAxis> rows;
+  find_shares_along_axis(cells, 0.0, 2.0, rows);
+  std::vector<double> sums(4);
+  for (const SharesAlongAxis& row : rows) {
+    for (std::size_t i = 0; i < row.parts.size(); ++i)
+      sums[static_cast<std::size_t>(row.first) + i] += row.parts[i];
+  }
+  for (const double sum : sums)
+    EXPECT_NEAR(sum, 0.25, 1e-12);
+}
+
+TEST(GaussianOnSky, OfOneAroundTheOriginIsEven) {
+  const GaussianOnSky particle({{0, 0, 0}}, 3);
+  EXPECT_NEAR(particle({{0, 1, 0}}), 1 / (4 * pi), 1e-15);
+  EXPECT_EQ(particle.reach(), pi);
+}
+
+TEST(GaussianOnSky, FarAwayIsFlat) {
+  const GaussianOnSky particle({{0, 0, 1e6}}, 10);
+  const double angle = 2e-5, width = 1e-5;
+  const double expected = std::exp(-std::pow(angle / width, 2)) / (pi * width * width);
+  EXPECT_NEAR(particle({{std::sin(angle), 0, std::cos(angle)}}) / expected, 1, 1e-8);
+}
+
+Vec3 anywhere_on_the_sky(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  const Vec3 place = {{normal(random), normal(random), normal(random)}};
+  return place / mag(place);
+}
+
+std::vector<double> values_at_points(const SkyLattice& lattice, const GaussianOnSky& particle) {
+  std::vector<CellShare> shares;
+  lattice.add_values(particle, particle.reach(), shares);
+  std::vector<double> values(lattice.points());
+  for (const CellShare& share : shares)
+    values[share.cell] += share.part;
+  return values;
+}
+
+// Over the value in its middle: between points in all directions, and around the middle.
+double worst_error(const SkyLattice& lattice, const std::vector<double>& values,
+                   const GaussianOnSky& particle, std::mt19937& random) {
+  double worst = 0;
+  for (int i = 0; i < 400; ++i) {
+    Vec3 direction = anywhere_on_the_sky(random);
+    if (i % 2 == 0) direction = particle.middle() + 2 * particle.width() * direction;
+    direction = direction / mag(direction);
+    const double found = lattice.stencil_at(direction).of(values);
+    worst = std::max(worst, std::abs(found - particle(direction)));
+  }
+  return worst / particle(particle.middle());
+}
+
+TEST(SkyLattice, HasWhatLiesBetweenItsPoints) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 40; ++i) {
+    const double distance = std::exp(std::uniform_real_distribution<double>(-3, 3.5)(random));
+    const GaussianOnSky particle(distance * anywhere_on_the_sky(random), 1);
+    const SkyLattice lattice(SkyLattice::level_for(particle.width()));
+    EXPECT_LT(worst_error(lattice, values_at_points(lattice, particle), particle, random),
+              lattice_error)
+        << particle.width();
+  }
+}
+
+TEST(SkyLattice, HasTheSameInItsNextLevel) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 10; ++i) {
+    const GaussianOnSky particle(3.0 * anywhere_on_the_sky(random), 1);
+    const int level = SkyLattice::level_for(particle.width());
+    const std::vector<double> finer =
+        SkyLattice(level).refined(values_at_points(SkyLattice(level), particle));
+    EXPECT_LT(worst_error(SkyLattice(level + 1), finer, particle, random), lattice_error);
+  }
+}
+
+TEST(SkyLattice, HasNothingBeyondTheReach) {
+  const GaussianOnSky particle({{0, 20, 0}}, 1);
+  const SkyLattice lattice(SkyLattice::level_for(particle.width()));
+  const std::vector<double> values = values_at_points(lattice, particle);
+  const auto seen = std::count_if(values.begin(), values.end(), [](double v) { return v > 0; });
+  EXPECT_GT(seen, 1000);
+  EXPECT_LT(static_cast<std::size_t>(seen), lattice.points() / 10);
+}
 
 constexpr HealpixOrder ring = HealpixOrder::ring, nested = HealpixOrder::nested;
 
@@ -126,7 +250,7 @@ TEST(SharesOnTheSky, AreWithinTheToleranceOfExactOnes) {
 TEST(SharesOnTheSky, LoseNoSmallParticle) {
   std::mt19937 random(5);
   const HealpixGrid grid(64, nested);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < test::rounds(15000); ++i) {
     std::vector<CellShare> shares;
     const GaussianOnSky particle(random_direction(random), 1e-8);
     add_shares_on_the_sky(grid, particle, {1e-3, 1e-3}, shares);
