@@ -12,7 +12,7 @@
 #include "splotchcl/error.h"
 #include "tree/held_particles.h"
 #include "tree/level_arrays.h"
-#include "tree/morton_keys.h"
+#include "scene/morton_keys.h"
 #include "tree/node_merging.h"
 #include "tree/source_extent.h"
 #include "tree/tree_stretch.h"
