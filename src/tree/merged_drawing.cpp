@@ -165,7 +165,7 @@ std::optional<MergedDrawing> draw_merged(const Frame& frame,
   double error = part_of_nodes * frame.tolerance;
   for (drawing.cuts = 1; drawing.cuts <= most_cuts; ++drawing.cuts) {
     TreeCut cut = cut_tree(frame, {error, {}, 2});
-    const bool is_worth_it = cut.nodes + cut.particles < particle_count(frame) / 4;
+    const bool is_worth_it = cut.nodes + cut.particles < particle_count(frame) / 8;
     if (drawing.cuts > 1 && !is_worth_it) return std::nullopt;
     cut.frame.tolerance = (1 - part_of_nodes) * frame.tolerance;
     drawing.image = draw(cut.frame);
