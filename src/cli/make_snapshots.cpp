@@ -3,13 +3,30 @@
 #include "cli/commands.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
+#include "generate/large_universe.h"
 #include "splotchcl/galaxy.h"
 #include "splotchcl/generate.h"
 
 namespace splotchcl::cli {
+namespace {
+
+int generate_large_universe(const GenerateOptions& options, Console& console) {
+  const Stopwatch stopwatch;
+  const WrittenUniverse made = write_large_universe(
+      options.output, options.settings, {},
+      [&](const std::string& stage, double fraction) { console.progress(stage, fraction); });
+  console.done(fmt::format("{} to {}: {} gas and {} star particles, {:.1f} s",
+                           made.files.front().string(), made.files.back().filename().string(),
+                           made.gas, made.stars, stopwatch.seconds()));
+  return 0;
+}
+
+}  // namespace
 
 int run_generate(const GenerateOptions& options, Console& console) {
   check_output_path(options.output);
+  if (options.what == "universe" && options.settings.particles > LargeUniverse::least)
+    return generate_large_universe(options, console);
   const Stopwatch stopwatch;
   console.status(fmt::format("making {} particles", options.settings.particles));
   const GeneratedSnapshot snapshot = options.what == "halo" ? generate_halo(options.settings)

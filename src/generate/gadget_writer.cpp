@@ -1,9 +1,11 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "common/unfinished_file.h"
+#include "generate/gadget_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/generate.h"
 
@@ -80,11 +82,15 @@ class RecordWriter {
   std::uint32_t length_ = 0;
 };
 
-Header make_header(const GeneratedSnapshot& snapshot) {
+Header make_header(const GeneratedSnapshot& snapshot, const GadgetSet& set) {
   Header header;
   header.count_in_file[gas] = static_cast<std::uint32_t>(snapshot.gas.count());
   header.count_in_file[stars] = static_cast<std::uint32_t>(snapshot.stars.count());
-  header.count_in_all = header.count_in_file;
+  header.count_in_all[gas] = static_cast<std::uint32_t>(set.gas);
+  header.count_in_all[stars] = static_cast<std::uint32_t>(set.stars);
+  header.count_in_all_high[gas] = static_cast<std::uint32_t>(set.gas >> 32U);
+  header.count_in_all_high[stars] = static_cast<std::uint32_t>(set.stars >> 32U);
+  header.files = static_cast<std::int32_t>(set.files);
   header.box_size = snapshot.box_size;
   return header;
 }
@@ -93,16 +99,40 @@ std::vector<float> masses(const GeneratedParticles& particles) {
   return std::vector<float>(particles.count(), particles.mass);
 }
 
-void write_ids(RecordWriter& writer, UnfinishedFile& file, std::uint64_t count) {
+void write_ids(RecordWriter& writer, UnfinishedFile& file, std::uint64_t count,
+               std::uint32_t first) {
   std::vector<std::uint32_t> ids(count);
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    ids[i] = static_cast<std::uint32_t>(i + 1);
+  std::iota(ids.begin(), ids.end(), first);
   writer.begin_block("ID  ", ids.size() * sizeof ids[0]);
   file.write(ids.data(), ids.size() * sizeof ids[0]);
   writer.end_block();
 }
 
+void write_blocks(UnfinishedFile& file, const GeneratedSnapshot& snapshot, const Header& header,
+                  std::uint32_t first_id) {
+  const std::uint64_t particles = snapshot.gas.count() + snapshot.stars.count();
+  const bool has_mass_block = header.mass_table[gas] == 0;
+  RecordWriter writer(file);
+  writer.write_header(header);
+  writer.write_block("POS ", snapshot.gas.position, snapshot.stars.position);
+  writer.write_block("VEL ", snapshot.gas.velocity, snapshot.stars.velocity);
+  write_ids(writer, file, particles, first_id);
+  if (has_mass_block) writer.write_block("MASS", masses(snapshot.gas), masses(snapshot.stars));
+  writer.write_block("U   ", snapshot.gas.internal_energy);
+  writer.write_block("RHO ", snapshot.gas.density);
+  writer.write_block("HSML", snapshot.gas.smoothing_length);
+  writer.write_block("HSMS", snapshot.stars.smoothing_length);
+  writer.write_block("AGE ", snapshot.stars.age);
+}
+
 }  // namespace
+
+void write_gadget2_part(UnfinishedFile& file, const GeneratedSnapshot& part, const GadgetSet& set) {
+  Header header = make_header(part, set);
+  header.mass_table[gas] = static_cast<double>(part.gas.mass);
+  header.mass_table[stars] = static_cast<double>(part.stars.mass);
+  write_blocks(file, part, header, set.first_id);
+}
 
 void write_gadget2(const std::filesystem::path& path, const GeneratedSnapshot& snapshot) {
   const std::uint64_t particles = snapshot.gas.count() + snapshot.stars.count();
@@ -112,17 +142,8 @@ void write_gadget2(const std::filesystem::path& path, const GeneratedSnapshot& s
                     std::to_string(most_particles) + "; make fewer");
   }
   UnfinishedFile file(path);
-  RecordWriter writer(file);
-  writer.write_header(make_header(snapshot));
-  writer.write_block("POS ", snapshot.gas.position, snapshot.stars.position);
-  writer.write_block("VEL ", snapshot.gas.velocity, snapshot.stars.velocity);
-  write_ids(writer, file, particles);
-  writer.write_block("MASS", masses(snapshot.gas), masses(snapshot.stars));
-  writer.write_block("U   ", snapshot.gas.internal_energy);
-  writer.write_block("RHO ", snapshot.gas.density);
-  writer.write_block("HSML", snapshot.gas.smoothing_length);
-  writer.write_block("HSMS", snapshot.stars.smoothing_length);
-  writer.write_block("AGE ", snapshot.stars.age);
+  const GadgetSet alone = {snapshot.gas.count(), snapshot.stars.count()};
+  write_blocks(file, snapshot, make_header(snapshot, alone), alone.first_id);
   file.finish();
 }
 

@@ -10,8 +10,6 @@
 namespace splotchcl {
 namespace {
 
-// Record lengths of a Gadget file are 32 bits: positions take 12 bytes a particle.
-constexpr std::uint64_t most_gas = 170'000'000;
 // Fewer do not have enough neighbours for a smoothing length.
 constexpr std::uint64_t least_gas = 1000;
 
@@ -32,19 +30,15 @@ void find_density(GeneratedSnapshot& snapshot) {
     if (particles->count() == 0) continue;
     particles->smoothing_length = smoothing_lengths(*particles, snapshot.box_size);
   }
-  const std::vector<float>& lengths = snapshot.gas.smoothing_length;
-  const Column density = densities_from_smoothing_lengths(
-      Column::uniform(snapshot.gas.mass), Column(nullptr, lengths.data(), lengths.size()),
-      lengths.size());
-  snapshot.gas.density.assign(density.data(), density.data() + density.size());
+  set_densities(snapshot.gas);
 }
 
 }  // namespace
 
-ParticleShares share_particles(const GenerateSettings& settings) {
-  if (settings.particles < least_gas || settings.particles > most_gas) {
+ParticleShares share_particles(const GenerateSettings& settings, std::uint64_t most) {
+  if (settings.particles < least_gas || settings.particles > most) {
     throw UsageError("particles: " + std::to_string(settings.particles) + " is not between " +
-                     std::to_string(least_gas) + " and " + std::to_string(most_gas));
+                     std::to_string(least_gas) + " and " + std::to_string(most));
   }
   if (!(settings.star_fraction >= 0 && settings.star_fraction <= 0.9)) {
     throw UsageError("stars: " + std::to_string(settings.star_fraction) +
@@ -55,6 +49,13 @@ ParticleShares share_particles(const GenerateSettings& settings) {
       std::llround(settings.star_fraction * static_cast<double>(settings.particles)));
   shares.gas = settings.particles - shares.stars;
   return shares;
+}
+
+void set_densities(GeneratedParticles& gas) {
+  const std::vector<float>& lengths = gas.smoothing_length;
+  const Column density = densities_from_smoothing_lengths(
+      Column::uniform(gas.mass), Column(nullptr, lengths.data(), lengths.size()), lengths.size());
+  gas.density.assign(density.data(), density.data() + density.size());
 }
 
 void set_masses(GeneratedSnapshot& snapshot, double of_gas, double of_stars) {

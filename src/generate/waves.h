@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <functional>
@@ -13,35 +15,37 @@ namespace splotchcl {
 // share in each.
 class CellCorners {
  public:
-  CellCorners(const Vec3& place, int side) : side_(side) {
-    for (int axis = 0; axis < 3; ++axis) {
+  CellCorners(const Vec3& place, int side) : side_(static_cast<std::size_t>(side)) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const double scaled = place.a[axis] * side;
-      cell_[axis] = static_cast<int>(std::floor(scaled));
-      part_[axis] = scaled - cell_[axis];
+      const double below = std::floor(scaled);
+      const double part = scaled - below;
+      parts_[axis] = {1 - part, part};
+      const std::size_t row = wrapped(static_cast<int>(below), side);
+      rows_[axis] = {row, row + 1 == side_ ? 0 : row + 1};
     }
   }
   std::size_t index(int corner) const {
-    std::size_t index = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int wrapped = ((cell_[axis] + step(corner, axis)) % side_ + side_) % side_;
-      index = index * static_cast<std::size_t>(side_) + static_cast<std::size_t>(wrapped);
-    }
-    return index;
+    return (rows_[0][step(corner, 0)] * side_ + rows_[1][step(corner, 1)]) * side_ +
+           rows_[2][step(corner, 2)];
   }
   double weight(int corner) const {
-    double weight = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      weight *= step(corner, axis) == 1 ? part_[axis] : 1 - part_[axis];
-    }
-    return weight;
+    return parts_[0][step(corner, 0)] * parts_[1][step(corner, 1)] * parts_[2][step(corner, 2)];
   }
 
  private:
-  static int step(int corner, int axis) { return corner >> axis & 1; }
+  static std::size_t step(int corner, int axis) {
+    return static_cast<std::size_t>(corner >> axis & 1);
+  }
+  // Most places lie in the cube: a division takes longer than all else.
+  static std::size_t wrapped(int cell, int side) {
+    const bool is_within = cell >= 0 && cell < side;
+    return static_cast<std::size_t>(is_within ? cell : (cell % side + side) % side);
+  }
 
-  int side_;
-  int cell_[3];
-  double part_[3];
+  std::size_t side_;
+  std::array<std::array<std::size_t, 2>, 3> rows_{};
+  std::array<std::array<double, 2>, 3> parts_{};
 };
 
 // A periodic real field on a grid over the unit cube, z fastest, interpolated linearly

@@ -182,6 +182,9 @@ constexpr std::size_t places_at_once = 4096;
 constexpr double web_wave = 6.5;    // waves per box; shorter ones do not move the web
 constexpr double strand_wave = 13;  // shorter ones do not make strands
 constexpr double straying = 0.45;   // part of linear theory's displacement
+constexpr double collapsed_radius = 0.025;
+constexpr int sharpened_side = 128;
+constexpr std::array<double, 3> sharpened_widths = {1.6, 1.3, 1};  // in cells
 
 // Bent where radiation ruled: Bardeen et al. (1986), by waves per box.
 double power(double wave, double box_size) {
@@ -210,7 +213,8 @@ Web::Web(double box_size, Random& random)
       displacement_{displacement(0, 0, web_wave), displacement(1, 0, web_wave),
                     displacement(2, 0, web_wave)},
       straying_{displacement(0, web_wave, strand_wave), displacement(1, web_wave, strand_wave),
-                displacement(2, web_wave, strand_wave)} {}
+                displacement(2, web_wave, strand_wave)},
+      collapsed_(contrast(collapsed_radius)) {}
 
 Vec3 Web::displaced(const Vec3& birthplace) const {
   Vec3 place = birthplace;
@@ -227,17 +231,10 @@ Vec3 Web::strayed(const Vec3& birthplace) const {
   return by;
 }
 
-std::vector<double> Web::sharpness(const std::vector<Vec3>& birthplaces) const {
-  constexpr double radius = 0.025, least = 0.3, none = -1, all = 1.5;
-  const PeriodicGrid grid = contrast(radius);
-  std::vector<double> parts(birthplaces.size());
-  for_blocks(parts.size(), places_at_once, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      const double collapsed = smoothstep((grid.interpolate(birthplaces[i]) - none) / (all - none));
-      parts[i] = least + (1 - least) * collapsed;
-    }
-  });
-  return parts;
+double Web::sharpness(const Vec3& birthplace) const {
+  constexpr double least = 0.3, none = -1, all = 1.5;
+  const double collapsed = smoothstep((collapsed_.interpolate(birthplace) - none) / (all - none));
+  return least + (1 - least) * collapsed;
 }
 
 PeriodicGrid Web::contrast(double radius) const {
@@ -261,19 +258,21 @@ PeriodicGrid Web::displacement(int axis, double shortest, double longest) const 
   });
 }
 
-void sharpen_web(std::vector<Vec3>& places, const std::vector<double>& parts,
-                 std::vector<Halo>& haloes) {
-  constexpr int side = 128;
-  constexpr double widths[] = {1.6, 1.3, 1};  // in cells
-  for (const double width : widths) {
-    const PeriodicGrid density = smoothed_density(places, side, width);
+SharpenedWeb::SharpenedWeb(std::vector<Vec3> places, const std::vector<double>& parts) {
+  for (const double width : sharpened_widths) {
+    densities_.push_back(smoothed_density(places, sharpened_side, width));
+    if (densities_.size() == sharpened_widths.size()) break;  // nobody asks for where they end
     for_blocks(places.size(), places_at_once, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i)
-        places[i] += step_uphill(density, places[i], width) * parts[i];
+        places[i] += step_uphill(densities_.back(), places[i], width) * parts[i];
     });
-    for (Halo& halo : haloes)
-      halo.center += step_uphill(density, halo.center, width);
   }
+}
+
+Vec3 SharpenedWeb::moved(Vec3 place, double part) const {
+  for (std::size_t step = 0; step < densities_.size(); ++step)
+    place += step_uphill(densities_[step], place, sharpened_widths[step]) * part;
+  return place;
 }
 
 }  // namespace splotchcl

@@ -60,9 +60,9 @@ class Web {
   // By what a place differs from `displaced` because of shorter waves, less than in linear theory:
   // strands within filaments, and knots along them.
   Vec3 strayed(const Vec3& birthplace) const;
-  // By which part of the way sharpen_web moves what is born at these places: where less had
-  // collapsed, sheets and the wings of filaments stay wide.
-  std::vector<double> sharpness(const std::vector<Vec3>& birthplaces) const;
+  // By which part of the way SharpenedWeb moves what is born here: where less had collapsed, sheets
+  // and the wings of filaments stay wide.
+  double sharpness(const Vec3& birthplace) const;
   // The density's contrast, grown to today, averaged over balls of this radius.
   PeriodicGrid contrast(double radius) const;
 
@@ -73,11 +73,21 @@ class Web {
   RandomWaves waves_;
   double amplitude_;
   std::array<PeriodicGrid, 3> displacement_, straying_;
+  PeriodicGrid collapsed_;
 };
 
-// Zeldovich's sheets and filaments stay thick, because matter there crosses and runs on;
-// here it sticks, by a part from 0 to 1 of each place's way. The haloes go along.
-void sharpen_web(std::vector<Vec3>& places, const std::vector<double>& parts,
-                 std::vector<Halo>& haloes);
+// Zeldovich's sheets and filaments stay thick, because matter there crosses and runs on; here it
+// sticks.
+class SharpenedWeb {
+ public:
+  // Of matter at these places, each of which moves by a part from 0 to 1 of its way.
+  SharpenedWeb(std::vector<Vec3> places, const std::vector<double>& parts);
+
+  // Where other matter moves that the web has brought here.
+  Vec3 moved(Vec3 place, double part) const;
+
+ private:
+  std::vector<PeriodicGrid> densities_;  // before each step
+};
 
 }  // namespace splotchcl

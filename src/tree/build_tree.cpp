@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "parallel/for_blocks.h"
+#include "scene/morton_keys.h"
 #include "splotchcl/error.h"
 #include "tree/held_particles.h"
 #include "tree/level_arrays.h"
-#include "tree/morton_keys.h"
 #include "tree/node_merging.h"
 #include "tree/source_extent.h"
 #include "tree/tree_stretch.h"

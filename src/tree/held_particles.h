@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tree/morton_keys.h"
+#include "scene/morton_keys.h"
 #include "tree/tree_stretch.h"
 
 namespace splotchcl {

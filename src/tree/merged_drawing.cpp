@@ -17,8 +17,9 @@
 namespace splotchcl {
 namespace {
 
-// Particles over a pixel times the squared tolerance.
-constexpr double least_gain = 0.015;
+// Fewer particles over a pixel do not gain, and a splat of a cut takes as long as four particles.
+constexpr double least_over_pixel = 50;
+constexpr double most_splats = 0.25;        // over particles
 constexpr double part_of_nodes = 0.7;       // of the tolerance
 constexpr double verified_finer = 4;        // error of the cut to which a picture is compared
 constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
@@ -93,6 +94,34 @@ double largest_difference(const Image& picture, const Image& finer, const Rectan
   return largest;
 }
 
+// Squares all over the picture, of a thirtieth of its area.
+std::vector<Rectangle> sampled_regions(const Rectangle& crop) {
+  constexpr int along = 4;
+  constexpr double part_of_side = 0.18;
+  std::vector<Rectangle> regions;
+  for (int i = 0; i < along * along; ++i) {
+    const int width = std::max(1, static_cast<int>(part_of_side * crop.width / along));
+    const int height = std::max(1, static_cast<int>(part_of_side * crop.height / along));
+    // Not all in a row.
+    const double x = (i % along + 0.2 + 0.15 * (i / along)) / along;
+    const double y = (i / along + 0.65 - 0.15 * (i % along)) / along;
+    regions.push_back({crop.x + static_cast<int>(x * crop.width),
+                       crop.y + static_cast<int>(y * crop.height), width, height});
+  }
+  return regions;
+}
+
+// Of nodes and particles, by those in a part of the picture.
+double expected_splats(const Frame& frame) {
+  const std::vector<Rectangle> regions = sampled_regions(frame.crop);
+  const TreeCut cut = cut_tree(frame, {part_of_nodes * frame.tolerance, regions, 1, true});
+  const double all = static_cast<double>(frame.crop.width) * frame.crop.height;
+  double area = 0;
+  for (const Rectangle& region : regions)
+    area += static_cast<double>(region.width) * region.height;
+  return static_cast<double>(cut.nodes + cut.particles) * all / area;
+}
+
 // Regions are drawn together: elsewhere that picture shows a part of its light.
 void verify(const Frame& frame, double error, const std::vector<Rectangle>& regions,
             const std::function<Image(const Frame&)>& draw, MergedDrawing& drawing) {
@@ -115,8 +144,9 @@ void verify(const Frame& frame, double error, const std::vector<Rectangle>& regi
 
 bool tree_pays(const Frame& frame) {
   const double pixels = static_cast<double>(frame.width) * frame.height;
-  const double over_pixel = static_cast<double>(particle_count(frame)) / pixels;
-  return has_served_component(frame) && over_pixel * frame.tolerance * frame.tolerance > least_gain;
+  const auto particles = static_cast<double>(particle_count(frame));
+  return has_served_component(frame) && particles / pixels > least_over_pixel &&
+         expected_splats(frame) < most_splats * particles;
 }
 
 std::string explain_tree(const Frame& frame) {
@@ -135,7 +165,7 @@ std::optional<MergedDrawing> draw_merged(const Frame& frame,
   double error = part_of_nodes * frame.tolerance;
   for (drawing.cuts = 1; drawing.cuts <= most_cuts; ++drawing.cuts) {
     TreeCut cut = cut_tree(frame, {error, {}, 2});
-    const bool is_worth_it = cut.nodes + cut.particles < particle_count(frame) / 4;
+    const bool is_worth_it = cut.nodes + cut.particles < particle_count(frame) / 8;
     if (drawing.cuts > 1 && !is_worth_it) return std::nullopt;
     cut.frame.tolerance = (1 - part_of_nodes) * frame.tolerance;
     drawing.image = draw(cut.frame);

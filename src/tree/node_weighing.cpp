@@ -113,8 +113,11 @@ bool NodeWeigher::is_unseen(const Projected& at, double reach, double widest) co
   if (frame_.projection != Projection::perspective && frame_.projection != Projection::orthographic)
     return false;
   const double scale = 1.06 * at.pixels_per_length;
+  const double spread =
+      has_to_lie_there_ ? 0
+                        : scale * reach_in_sigma * widest + 10 * frame_.kernel.footprint_pixels + 2;
   const double pixels =
-      scale * (reach + reach_in_sigma * widest) + 10 * frame_.kernel.footprint_pixels + 2 +
+      scale * reach + spread +
       0.06 * (std::abs(at.x - frame_.camera.center_x) + std::abs(at.y - frame_.camera.center_y)) *
           (frame_.projection == Projection::perspective
                ? std::min(1.0, 20 * reach / std::max(at.depth, 1e-300))

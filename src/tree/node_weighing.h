@@ -28,9 +28,10 @@ struct WeighedNode {
 // Looks at nodes as a frame shows them.
 class NodeWeigher {
  public:
-  // Only what may be seen in the regions counts. All have to stay.
-  NodeWeigher(const Frame& frame, const std::vector<Rectangle>& regions, const ErrorCells& cells)
-      : frame_(frame), regions_(regions), cells_(cells) {}
+  // Only what may be seen in the regions counts, or what lies in them. All have to stay.
+  NodeWeigher(const Frame& frame, const std::vector<Rectangle>& regions, const ErrorCells& cells,
+              bool has_to_lie_there)
+      : frame_(frame), regions_(regions), cells_(cells), has_to_lie_there_(has_to_lie_there) {}
 
   WeighedNode weigh(const TreePart& part, const TreeItem& item, std::size_t level) const;
 
@@ -46,6 +47,7 @@ class NodeWeigher {
   const Frame& frame_;
   const std::vector<Rectangle>& regions_;
   const ErrorCells& cells_;
+  bool has_to_lie_there_;
 };
 
 }  // namespace splotchcl

@@ -71,7 +71,7 @@ class Cutter {
         regions_(settings.regions.empty() ? std::vector<Rectangle>{frame.crop} : settings.regions),
         parts_(tree_parts(frame)),
         sums_(frame.crop),
-        weigher_(frame, regions_, sums_.errors),
+        weigher_(frame, regions_, sums_.errors, settings.only_counts),
         limits_(settings.error, has_sums(frame)) {}
 
   TreeCut cut() {
@@ -177,9 +177,10 @@ class Cutter {
   void keep(const Frontier& frontier, std::size_t i, std::size_t level) {
     sums_.add(frontier.weighed[i]);
     if (!draws_) return;
+    ++kept_;
+    if (settings_.only_counts) return;
     const TreePart& part = parts_[frontier.part];
     nodes_[part.component].add_node(part, frontier.items[i], level, frontier.weighed[i]);
-    ++kept_;
   }
 
   void open(const TreePart& part, const TreeItem& item, std::size_t level_number,
@@ -207,6 +208,8 @@ class Cutter {
     if (count == 0) return;
     const std::uint64_t first = level.first_loose_particle(node);
     if (count > tree.order_count || first > tree.order_count - count) refuse_damaged();
+    loose_ += count;
+    if (settings_.only_counts) return;
     for (std::uint64_t loose = first; loose < first + count; ++loose) {
       const std::uint64_t place = tree.order[loose];
       if (place >= tree.count) refuse_damaged();
@@ -224,11 +227,11 @@ class Cutter {
         cut.frame.components.push_back(component);
         continue;
       }
-      cut.particles += nodes_[c].particle_count();
       cut.frame.components.push_back(nodes_[c].nodes(component));
       cut.frame.components.push_back(nodes_[c].particles(component));
     }
     cut.nodes = kept_;
+    cut.particles = loose_;
     cut.visited = visited_;
     cut.bytes = bytes_ + cut.particles * sizeof(std::uint32_t);
     cut.estimate = settings_.error * limits_.largest_part(sums_.errors);
@@ -262,7 +265,7 @@ class Cutter {
   bool draws_ = false;
   std::vector<Level> seen_;        // by the pass before
   std::vector<DrawnNodes> nodes_;  // of each component
-  std::uint64_t kept_ = 0, visited_ = 0, bytes_ = 0;
+  std::uint64_t kept_ = 0, loose_ = 0, visited_ = 0, bytes_ = 0;
 };
 
 }  // namespace

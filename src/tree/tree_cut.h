@@ -17,6 +17,8 @@ struct CutSettings {
   // So often limits are corrected by what nodes were found to err by. Without, a cut is quick and
   // keeps its error only roughly.
   int corrections = 2;
+  // Nodes and particles are counted, where their places lie in the regions, and not drawn.
+  bool only_counts = false;
 };
 
 // A frame in which nodes stand for particles where they err by little enough.

@@ -1,4 +1,4 @@
-#include "tree/morton_keys.h"
+#include "scene/morton_keys.h"
 
 #include <algorithm>
 
