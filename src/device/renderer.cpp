@@ -74,6 +74,14 @@ ErrorParts worst_within(const std::vector<ErrorParts>& candidates, double error_
   return worst;
 }
 
+void require_doubles(const DeviceContext& device) {
+  if (device.traits.double_numbers) return;
+  throw DeviceError(
+      "device " + device.device.name() +
+      " has no double precision, which this frame needs: its tolerance is 0, or single "
+      "precision does not keep its promise; choose a larger tolerance or another device");
+}
+
 // What is known of splats once they are drawn.
 struct DrawnSplats {
   CollectedSplats collected;
@@ -244,7 +252,7 @@ void Renderer::State::join_ranks(const RendererOptions& options) {
   require_same(*ranks, "device",
                device.device.name() + ", driver " + device.device.driver_version() +
                    (traits.rows ? ", rows" : ", groups") + (traits.rows_of_16 ? " of 16" : "") +
-                   (traits.double_numbers ? "" : ", pairs"),
+                   (traits.double_numbers ? "" : ", no doubles"),
                "choose the same everywhere with --device");
 }
 
@@ -374,6 +382,7 @@ bool Renderer::State::mend(const Frame& frame, const FramePlan& plan, const Fram
 }
 
 Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
+  if (plan.is_extended()) require_doubles(device);
   std::optional<FrameRanks> of_frame;
   if (ranks) of_frame.emplace(FrameRanks{*ranks, work});
   Pipeline pipeline(device, particles, frame, plan, progress, of_frame ? &*of_frame : nullptr);

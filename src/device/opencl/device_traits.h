@@ -14,7 +14,7 @@ struct DeviceTraits {
   bool large_pages = false;          // working memory is the host's, on large pages (large_pages.h)
   bool rows = true;                  // the shape: eight lanes, rows; not work-groups
   bool rows_of_16 = false;           // registers hold sixteen floats
-  bool double_numbers = false;       // extended numbers are double precision, not pairs
+  bool double_numbers = false;       // cl_khr_fp64
   std::uint64_t largest_buffer = 0;  // bytes
   std::uint64_t gpu_memory = 0;      // bytes, free or not; 0: no GPU
   std::uint32_t threads = 1;         // only memory follows from them
