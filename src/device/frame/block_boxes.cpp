@@ -31,7 +31,7 @@ BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
   const bool has_own_colors = !particles.color_vector.is_absent();
   const std::size_t count = ceil_divide(particles.count, p.launch.block_particles);
   const auto boxes = device.pool.get<shared::BlockBox>(count, "boxes of blocks");
-  Choices choices = lanes_of(device.traits.rows);
+  Choices choices = lanes_of(device.traits);
   choices.push_back(flag("VECTOR_COLORS", has_own_colors));
   const Program find_boxes =
       device.programs.get(program_source("kernels/project/boxes.cl", choices));
