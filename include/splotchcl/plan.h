@@ -21,7 +21,7 @@ enum class LightPlan { emission, proportional, ordered };
 enum class Precision {
   fast,      // single precision, short polynomials: exp to 2.7e-6, erf to 2.3e-6
   full,      // single precision to its last digits: exp to 7.5e-8, erf to 2.3e-7
-  extended,  // numbers of 45 bits: double precision, or pairs of floats
+  extended,  // double precision
 };
 
 // What Precision::extended promises, of max(1, |reference|).

@@ -44,8 +44,8 @@ enum class CompositeShape {
 struct RendererOptions {
   std::string device;  // part of a device's name, any case; empty: a GPU, else the CPU
   CompositeShape shape = CompositeShape::automatic;
-  // Tolerance 0 computes in double precision where the device has it, else, or if this is
-  // false, in pairs of floats: slower, with the same bounds.
+  // Tolerance 0 computes in double precision. Where the device does not have it, or this is false,
+  // frames that need it end with a DeviceError.
   bool use_double = true;
   // Frames are drawn again until a bound, not an estimate, says that they keep their tolerance:
   // FrameCheck.

@@ -4,17 +4,7 @@
 #include "kernels/common/grid.cl"
 #include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
-
-// A position is in [0, 1], so that the knot below is one of them. Behind the last there is one more
-// in memory, of which nothing is taken. Vectors, since what a loop writes to an array goes through
-// memory in pieces, which a processor cannot forward to the copy of the whole entry.
-INLINED float3 sample_knots(__global const float* knots, uint first, float last, float position) {
-  const float place = position * last;
-  const int below = (int)place;
-  __global const float* at = knots + (size_t)(first + (uint)below) * KNOT_FLOATS;
-  const float4 color = vload4(0, at), above = vload4(1, at);
-  return (color + (place - (float)below) * (above - color)).xyz;
-}
+#include "kernels/project/amplitudes.cl"
 
 INLINED float3 own_color_of(const Splat splat) {
 #if VECTOR_COLORS
@@ -57,38 +47,14 @@ INLINED float own_part(const Splat splat, const BinParameters p) {
 #endif
 }
 
-// Numbers are converted as signed ones, which most processors do in one step.
-INLINED float last_of(uint knots) {
-  return (float)(int)(knots - 1u);
-}
-
-typedef struct Amplitudes {
-  float3 emission, absorption;
-} Amplitudes;
-
-// E w and A w at the cloud's centre (scene.h, Absorption).
-INLINED Amplitudes amplitudes_of(const Splat splat, const ComponentColors colors,
-                                 __global const float* knots, const BinParameters p) {
-  float3 emitted = sample_knots(knots, colors.first_knot, last_of(colors.knot_count), splat.color);
-  if (VECTOR_COLORS) emitted *= own_color_of(splat);
-  float3 absorbed = emitted;
-  if (colors.absorption_knot_count > 0) {
-    absorbed = sample_knots(knots, colors.first_absorption_knot,
-                            last_of(colors.absorption_knot_count), splat.color);
-  }
-  Amplitudes found;
-  found.emission = splat.weight * colors.brightness * emitted;
-  found.absorption = splat.weight * colors.brightness * absorbed;
-  if (colors.absorption_kind == ABSORPTION_NONE) found.absorption = (float3)(0.0f);
-  if (colors.absorption_kind == ABSORPTION_FACTOR) {
-    found.absorption = splat.weight * colors.absorption_factor * absorbed;
-  }
-  if (colors.absorption_kind == ABSORPTION_GRAY) {
-    const float3 own = found.emission * own_part(splat, p);
-    found.absorption = found.emission;
-    const float3 emitted_part = own / (own + colors.absorption_factor);
-    found.emission = own > 0.0f ? found.emission * emitted_part : (float3)(0.0f);
-  }
+// E w and A w at the cloud's centre.
+INLINED Amplitudes amplitudes_of_splat(const Splat splat, const ComponentColors colors,
+                                       __global const float* knots, const BinParameters p) {
+  const Paint paint = {splat.color, splat.weight, colors.brightness, colors.absorption_factor,
+                       own_color_of(splat)};
+  Amplitudes found = amplitudes_of(paint, colors, knots);
+  if (colors.absorption_kind == ABSORPTION_GRAY)
+    absorb_gray(&found, found.emission * own_part(splat, p), colors.absorption_factor);
   return found;
 }
 #endif

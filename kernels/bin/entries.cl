@@ -20,7 +20,7 @@ INLINED TileSplat entry_without_place(const Splat splat, const ComponentColors c
   entry.tilt = splat.tilt;
 #endif
 #if LIGHT_ORDERED
-  const Amplitudes found = amplitudes_of(splat, colors, knots, p);
+  const Amplitudes found = amplitudes_of_splat(splat, colors, knots, p);
   entry.emission[0] = found.emission.x;
   entry.emission[1] = found.emission.y;
   entry.emission[2] = found.emission.z;

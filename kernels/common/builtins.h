@@ -138,7 +138,8 @@ EACH_SCALAR(DECLARE)
 #undef DECLARE
 #ifdef cl_khr_fp64
 #define DECLARE(FROM) \
-  CONVERSION(FROM, double, ) CONVERSION(FROM, double, 8) CONVERSION(FROM, double, 16)
+  CONVERSION(FROM, double, ) CONVERSION(FROM, double, 4) \
+  CONVERSION(FROM, double, 8) CONVERSION(FROM, double, 16)
 EACH_SCALAR(DECLARE)
 #undef DECLARE
 #endif

@@ -14,7 +14,7 @@
 // Splats are told apart by the octave of their width in pixels (plan.h, width_octaves).
 #define WIDTH_OCTAVES 16
 
-// A number as the sum of two floats (extended.cl).
+// A number as the sum of two floats.
 struct FloatPair {
   float high, low;
 };

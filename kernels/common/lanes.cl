@@ -1,7 +1,7 @@
 // One particle or pixel at a time on a GPU, eight on a processor, or sixteen where its registers
-// hold as many: LANES_8 and LANES_16 choose. Stages written in VALUE and INTEGER share every
-// formula between them. A compiler keeps away from registers of sixteen floats but in a function
-// that is called with some.
+// hold as many: LANES_8 and LANES_16 choose; with DOUBLE_VALUES, of extended precision, one in
+// double precision. Stages written in VALUE and INTEGER share every formula between them. A
+// compiler keeps away from registers of sixteen floats but in a function that is called with some.
 #pragma OPENCL FP_CONTRACT ON
 
 #undef VALUE
@@ -11,7 +11,15 @@
 #undef ANY
 #undef OR_OF_LANES
 #undef LANES
-#if defined(LANES_16)
+#if DOUBLE_VALUES
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#define LANES 1
+#define VALUE double
+// The bits of a float: of numbers that are stored, whatever VALUE is.
+#define AS_VALUE(bits) ((double)as_float(bits))
+#define AS_INTEGER(value) as_int((float)(value))
+#define TO_VALUE convert_double
+#elif defined(LANES_16)
 #define LANES 16
 #define NUMBERS_OF_LANES (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #define VALUE float16
@@ -46,13 +54,16 @@
 #else
 #define LANES 1
 #define VALUE float
-#define INTEGER int
 #define AS_VALUE as_float
 #define AS_INTEGER as_int
+#define TO_VALUE convert_float
+#endif
+#if LANES == 1
+#define NUMBERS_OF_LANES 0
+#define INTEGER int
 #define AS_WIDE as_long
 #define WIDE long
 #define UNSIGNED_WIDE ulong
-#define TO_VALUE convert_float
 #define TO_INTEGER convert_int
 #define TO_WIDE convert_long
 #define TO_UNSIGNED_WIDE convert_ulong
@@ -62,8 +73,7 @@
 // vectors and any non-zero scalar, so masks work alike as long as they are only combined
 // with & and |.
 #define ANY(mask) (mask)
-#endif
-#if LANES > 1
+#else
 // Two instructions, where PoCL's any() looks at one lane after the other.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_reduce_or)
@@ -78,13 +88,20 @@
 
 // 0 where a mask is false, its bits where it is true: masks as loop conditions per lane.
 static inline VALUE choose(VALUE if_false, VALUE if_true, INTEGER mask) {
+#if DOUBLE_VALUES
+  return mask ? if_true : if_false;
+#else
   return select(if_false, if_true, mask);
+#endif
 }
 
 // log2 of a positive, finite number, absolute error 8e-8 and a rounding of the result, relative
 // error near 1 3e-7: exponent, and t p(t) for 1 + t in [sqrt(1/2), sqrt(2)], its even and its odd
 // powers apart. No quotient: processors take as long for one as for ten steps of it.
 static inline VALUE log2_positive(VALUE x) {
+#if DOUBLE_VALUES
+  return log(x) * 1.4426950408889634;
+#else
   const INTEGER denormal = x < 1.17549435e-38f;
   x = choose(x, x * 16777216.0f, denormal);
   const INTEGER bits = AS_INTEGER(x) - 0x3f3504f3;
@@ -99,12 +116,14 @@ static inline VALUE log2_positive(VALUE x) {
   even = even * t2 + 1.4426949f;
   return TO_VALUE(exponent) + t * (odd * t + even) -
          choose((VALUE)(0.0f), (VALUE)(24.0f), denormal);
+#endif
 }
 
-#if LANES > 1
 // The bits of all lanes together.
 static inline uint or_of_lanes(INTEGER bits) {
-#ifdef OR_OF_LANES
+#if LANES == 1
+  return (uint)bits;
+#elif defined(OR_OF_LANES)
   return (uint)OR_OF_LANES(bits);
 #else
   int of_lane[LANES], all = 0;
@@ -114,7 +133,6 @@ static inline uint or_of_lanes(INTEGER bits) {
   return (uint)all;
 #endif
 }
-#endif
 
 // Eight floats at any address in one access: vload8 and vstore8 may become two, and a processor
 // cannot forward two stores to one load.

@@ -5,10 +5,9 @@
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
 #include "kernels/composite/composite.h"
-#include "kernels/extended/extended_lanes.cl"
-#include "kernels/extended/precise.cl"
+#include "kernels/extended/double_lanes.cl"
 
-#pragma OPENCL FP_CONTRACT OFF
+#pragma OPENCL FP_CONTRACT ON
 
 // As many as there are in the row.
 static inline float8 load_first(int count, __global const float* pixels) {
@@ -19,15 +18,14 @@ static inline float8 load_first(int count, __global const float* pixels) {
   return vload8(0, values);
 }
 
-static inline ExtendedLanes load_first_extended(int count, __global const float* pixels,
-                                                size_t plane) {
-  return lanes_pair(load_first(count, pixels), load_first(count, pixels + plane));
+static inline double8 load_first_extended(int count, __global const float* pixels, size_t plane) {
+  return sum_of_parts(load_first(count, pixels), load_first(count, pixels + plane));
 }
 
-static inline void store_first_extended(ExtendedLanes value, int count, __global float* pixels,
+static inline void store_first_extended(double8 value, int count, __global float* pixels,
                                         size_t plane) {
-  store_first(high_lanes(value), count, pixels);
-  store_first(low_lanes(value), count, pixels + plane);
+  store_first(convert_float8(value), count, pixels);
+  store_first(low_part(value), count, pixels + plane);
 }
 
 // Work-item (eight pixels of the crop, row). `layer` has the planes of a pixel one after the other,
@@ -42,21 +40,16 @@ __kernel void put_behind(const BehindParameters p, __global const Grid* grids,
   __global const float* behind = layer + (size_t)y * p.width + x;
   const size_t plane = grid.plane_size, layer_plane = (size_t)p.width * p.height;
   for (int c = 0; c < 3; ++c) {
-    __global const float* added = behind + 2 * c * layer_plane;
-    float8 high = load_first(count, added), low = load_first(count, added + layer_plane);
+    double8 added = load_first_extended(count, behind + 2 * c * layer_plane, layer_plane);
 #if LIGHT_ORDERED
     __global float* depths = own + (2 * c + 6) * plane;
-    const ExtendedLanes depth = load_first_extended(count, depths, plane);
-    const float8 seen = precise_exp_negative(high_lanes(depth), low_lanes(depth));
-    high *= seen;
-    low *= seen;
-    const ExtendedLanes deeper =
+    const double8 depth = load_first_extended(count, depths, plane);
+    added *= exp_of_minus(min(depth, (double8)(700.0)));
+    const double8 deeper =
         load_first_extended(count, behind + (2 * c + 6) * layer_plane, layer_plane);
-    store_first_extended(lanes_sum(depth, deeper), count, depths, plane);
+    store_first_extended(depth + deeper, count, depths, plane);
 #endif
     __global float* light = own + 2 * c * plane;
-    const ExtendedLanes sum =
-        lanes_sum(load_first_extended(count, light, plane), lanes_pair(high, low));
-    store_first_extended(sum, count, light, plane);
+    store_first_extended(load_first_extended(count, light, plane) + added, count, light, plane);
   }
 }

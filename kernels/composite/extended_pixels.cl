@@ -5,10 +5,9 @@
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
 #include "kernels/composite/composite.h"
-#include "kernels/extended/extended_lanes.cl"
-#include "kernels/extended/precise.cl"
+#include "kernels/extended/double_lanes.cl"
 
-#pragma OPENCL FP_CONTRACT OFF
+#pragma OPENCL FP_CONTRACT ON
 
 #define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
 #define GROUP (TILE_PIXELS / 8)
@@ -16,18 +15,18 @@
 // Planes hold, of each channel, the source's (or the sum's) high and low part, then those of
 // the depth.
 typedef struct Pixels {
-  ExtendedLanes light[3];
+  double8 light[3];
 #if LIGHT_ORDERED
-  ExtendedLanes depth[3];
+  double8 depth[3];
 #endif
 } Pixels;
 
-static inline ExtendedLanes load_extended(__global const float* planes, size_t plane) {
-  return lanes_pair(vload8(0, planes), vload8(0, planes + plane));
+static inline double8 load_extended(__global const float* planes, size_t plane) {
+  return sum_of_parts(vload8(0, planes), vload8(0, planes + plane));
 }
-static inline void store_extended(ExtendedLanes value, __global float* planes, size_t plane) {
-  vstore8(high_lanes(value), 0, planes);
-  vstore8(low_lanes(value), 0, planes + plane);
+static inline void store_extended(double8 value, __global float* planes, size_t plane) {
+  vstore8(convert_float8(value), 0, planes);
+  vstore8(low_part(value), 0, planes + plane);
 }
 static inline Pixels load_pixels(__global const float* planes, size_t plane) {
   Pixels pixels;
@@ -50,7 +49,7 @@ static inline void store_pixels(const Pixels pixels, __global float* planes, siz
 static inline Pixels no_pixels() {
   Pixels pixels;
   for (int c = 0; c < 3; ++c) {
-    pixels.light[c] = lanes_pair((float8)(0.0f), (float8)(0.0f));
+    pixels.light[c] = (double8)(0.0);
 #if LIGHT_ORDERED
     pixels.depth[c] = pixels.light[c];
 #endif
@@ -58,11 +57,9 @@ static inline Pixels no_pixels() {
   return pixels;
 }
 
-#if LIGHT_ORDERED
-static inline float8 transmittance(ExtendedLanes depth) {
-  return precise_exp_negative(high_lanes(depth), low_lanes(depth));
+static inline double8 transmittance(double8 depth) {
+  return exp_of_minus(min(depth, (double8)(700.0)));
 }
-#endif
 
 // Where the work-item's pixels lie in the planes of their grid.
 static inline __global float* own_planes(__global float* planes, const Grid grid, uint tile,
@@ -89,12 +86,10 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join_extended(
         partials + (size_t)segments[s].partial * PLANES * TILE_PIXELS + item * 8, TILE_PIXELS);
     for (int c = 0; c < 3; ++c) {
 #if LIGHT_ORDERED
-      const float8 seen = transmittance(pixels.depth[c]);
-      pixels.light[c] = lanes_sum(pixels.light[c], lanes_pair(high_lanes(behind.light[c]) * seen,
-                                                              low_lanes(behind.light[c]) * seen));
-      pixels.depth[c] = lanes_sum(pixels.depth[c], behind.depth[c]);
+      pixels.light[c] += behind.light[c] * transmittance(pixels.depth[c]);
+      pixels.depth[c] += behind.depth[c];
 #else
-      pixels.light[c] = lanes_sum(pixels.light[c], behind.light[c]);
+      pixels.light[c] += behind.light[c];
 #endif
     }
   }

@@ -9,10 +9,6 @@
 
 #pragma OPENCL FP_CONTRACT ON
 
-static inline double in_full(FloatPair a) {
-  return (double)a.high + (double)a.low;
-}
-
 // Pixels along one axis of the tile; none where last < first.
 typedef struct PixelRange {
   int first, last;
@@ -27,10 +23,23 @@ static inline PixelRange pixels_of_axis(double first, double reach, int size) {
   return range;
 }
 
+// From the picture's middle, as places of splats.
 typedef struct ExtendedTile {
-  double corner_x, corner_y;  // the first pixel's center
-  CubeFace face;
+  double corner_x, corner_y;       // the first pixel's center
+  double face_x, face_y, tangent;  // of a face of a cube: its middle, and from a pixel to the next
 } ExtendedTile;
+
+INLINED ExtendedTile extended_tile(uint tile, const Grid grid, const CubeFace face) {
+  const uint in_grid = tile - grid.first_tile, tiles_x = (uint)grid.tiles_x;
+  const int column = (int)(in_grid % tiles_x), row = (int)(in_grid / tiles_x);
+  ExtendedTile found;
+  found.corner_x = (double)(grid.first_x + column * TILE_WIDTH - grid.middle_x) + 0.5;
+  found.corner_y = (double)(grid.first_y + row * TILE_HEIGHT - grid.middle_y) + 0.5;
+  found.face_x = in_full(face.middle_x) - (double)grid.middle_x;
+  found.face_y = in_full(face.middle_y) - (double)grid.middle_y;
+  found.tangent = in_full(face.inverse_focal);
+  return found;
+}
 
 #if FACE_OF_CUBE
 typedef struct ExtendedShape {
@@ -47,9 +56,9 @@ static inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
   shape->y = of_tile->corner_y - in_full(splat->y);
   shape->columns = pixels_of_axis(shape->x, (double)RADIUS_X(*splat), TILE_WIDTH);
   shape->rows = pixels_of_axis(shape->y, (double)splat->radius, TILE_HEIGHT);
-  shape->tangent = in_full(of_tile->face.inverse_focal);
-  shape->tangent_x = (of_tile->corner_x - in_full(of_tile->face.middle_x)) * shape->tangent;
-  shape->tangent_y = (of_tile->corner_y - in_full(of_tile->face.middle_y)) * shape->tangent;
+  shape->tangent = of_tile->tangent;
+  shape->tangent_x = (of_tile->corner_x - of_tile->face_x) * shape->tangent;
+  shape->tangent_y = (of_tile->corner_y - of_tile->face_y) * shape->tangent;
   shape->squared_width = in_full(splat->tilt.squared_width);
   shape->footprint = in_full(splat->tilt.footprint);
   shape->inverse_secant2 = in_full(splat->tilt.inverse_secant2);
@@ -101,7 +110,7 @@ static inline void fill_centers(double* values, double first, int begin, int end
   }
 }
 
-// Pixels of a tile of `size`, the first of which has its center at `corner`, in whole eights;
+// `size` pixels of a tile, the first of which has its center at `corner`, in whole eights;
 // nothing beyond the radius. `squeeze`: from distances to those in the disc that an ellipse is made
 // of.
 static inline void fill_axis(Axis* axis, double corner, int size, FloatPair center, FloatPair sigma,
@@ -129,6 +138,18 @@ static inline void fill_axis(Axis* axis, double corner, int size, FloatPair cent
   }
 }
 
+static inline void fill_along_x(Axis* axis, const ExtendedSplat* splat, double corner, int size) {
+#if ELLIPSES
+  const double squeeze = in_full(splat->sigma) / in_full(splat->along_x.sigma);
+#else
+  const double squeeze = 1.0;
+#endif
+  fill_axis(axis, corner, size, splat->x, SIGMA_X(*splat), RADIUS_X(*splat), squeeze);
+}
+static inline void fill_along_y(Axis* axis, const ExtendedSplat* splat, double corner, int size) {
+  fill_axis(axis, corner, size, splat->y, splat->sigma, splat->radius, 1.0);
+}
+
 // The product of one along x and one along y.
 typedef struct ExtendedShape {
   PixelRange columns, rows;
@@ -139,17 +160,10 @@ typedef struct ExtendedShape {
 // Whether the splat reaches the tile.
 static inline int start_shape(ExtendedShape* shape, const ExtendedSplat* splat,
                               const ExtendedTile* of_tile) {
-#if ELLIPSES
-  const double squeeze = in_full(splat->sigma) / in_full(splat->along_x.sigma);
-#else
-  const double squeeze = 1.0;
-#endif
-  fill_axis(&shape->along_x, of_tile->corner_x, TILE_WIDTH, splat->x, SIGMA_X(*splat),
-            RADIUS_X(*splat), squeeze);
+  fill_along_x(&shape->along_x, splat, of_tile->corner_x, TILE_WIDTH);
   shape->columns = shape->along_x.range;
   if (shape->columns.first > shape->columns.last) return 0;
-  fill_axis(&shape->along_y, of_tile->corner_y, TILE_HEIGHT, splat->y, splat->sigma, splat->radius,
-            1.0);
+  fill_along_y(&shape->along_y, splat, of_tile->corner_y, TILE_HEIGHT);
   shape->rows = shape->along_y.range;
   const double cut = in_full(splat->cut);
   shape->cut_square = cut * cut;
@@ -175,17 +189,40 @@ INLINED ShapeColumns shape_columns(const ExtendedShape* shape, int first) {
   return columns;
 }
 
-// Zero outside the cut.
-INLINED double8 shape_of_eight(const ExtendedShape* shape, const ShapeColumns columns, int row) {
-  const double8 product = columns.shape * shape->along_y.shape[row];
+// And what a row of them does.
+typedef struct ShapeRow {
+  double shape;
 #if KERNEL_CUT
-  long8 inside = columns.square + shape->along_y.square[row] <= shape->cut_square;
+  double square;
+  long holds;
+#endif
+} ShapeRow;
+
+INLINED ShapeRow shape_row(const Axis* along_y, int row) {
+  ShapeRow values;
+  values.shape = along_y->shape[row];
+#if KERNEL_CUT
+  values.square = along_y->square[row];
+  values.holds = along_y->holds[row];
+#endif
+  return values;
+}
+
+// Zero outside the cut.
+INLINED double8 product_of(const ShapeColumns columns, const ShapeRow row, double cut_square) {
+  const double8 product = columns.shape * row.shape;
+#if KERNEL_CUT
+  long8 inside = columns.square + row.square <= cut_square;
 #if SAMPLING_MEAN
-  inside |= columns.holds & (long8)(shape->along_y.holds[row]);
+  inside |= columns.holds & (long8)(row.holds);
 #endif
   return select((double8)(0.0), product, inside);
 #else
   return product;
 #endif
+}
+
+INLINED double8 shape_of_eight(const ExtendedShape* shape, const ShapeColumns columns, int row) {
+  return product_of(columns, shape_row(&shape->along_y, row), shape->cut_square);
 }
 #endif

@@ -1,6 +1,19 @@
-// exp and 1 - erf of eight doubles at a time, for the rows of composite_extended_rows.cl: the
-// compiler's own functions take them one by one.
+// Eight doubles at a time, for compositing in extended precision; in memory they are sums of two
+// floats. exp and 1 - erf of the compiler's own take them one by one.
+#include "kernels/common/grid.h"
+
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT ON
+
+static inline double in_full(FloatPair a) {
+  return (double)a.high + (double)a.low;
+}
+static inline double8 sum_of_parts(float8 high, float8 low) {
+  return convert_double8(high) + convert_double8(low);
+}
+static inline float8 low_part(double8 a) {
+  return convert_float8(a - convert_double8(convert_float8(a)));
+}
 
 static inline double8 ramp_of_eight() {
   return (double8)(0, 1, 2, 3, 4, 5, 6, 7);

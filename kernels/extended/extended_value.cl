@@ -1,4 +1,4 @@
-// Extended numbers (extended.cl) as many at a time as a VALUE (lanes.cl) has: a processor's
+// Numbers of at least 43 bits, as many at a time as a VALUE (lanes.cl) has: a processor's
 // doubles, else sums of two VALUEs. The doubles of many GPUs are far slower than their floats.
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.h"

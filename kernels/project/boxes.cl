@@ -32,8 +32,8 @@ __kernel void find_boxes(const ProjectParameters p, __global const float* positi
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields, own_colors);
   const uint block = get_global_id(0);
-  const uint begin = p.first_particle + block * p.block_particles;
-  const uint end = min(begin + p.block_particles, p.end_particle);
+  const uint begin = p.launch.first_particle + block * p.launch.block_particles;
+  const uint end = min(begin + p.launch.block_particles, p.launch.end_particle);
   if (begin >= end) return;
   BoxLanes box;
   box.lower.x = box.lower.y = box.lower.z = (VALUE)(INFINITY);

@@ -192,7 +192,7 @@ INLINED INTEGER is_within_limits(const Depth depth, VALUE h, const DepthKeyParam
 // Of particles from i on, those of which this is asked: hardly any.
 SELDOM_CALLED INTEGER are_within_limits(uint i, uint end, INTEGER asked, const Columns columns,
                                         const ProjectParameters p) {
-  const VALUE h = load_values(columns.smoothing_lengths, i, end, p.smoothing_length_stride);
+  const VALUE h = load_values(columns.smoothing_lengths, i, end, p.launch.smoothing_length_stride);
   const Depth depth = depth_of(load_vectors(columns.positions, i, end), p.depth_key);
   return (asked == 0) | is_within_limits(depth, h, p.depth_key);
 }

@@ -12,7 +12,8 @@
 // however small a part keeps all its digits.
 INLINED VALUE log_of_one_more(VALUE part) {
   const VALUE sum = 1.0f + part, there = sum - 1.0f;
-  return choose(part, log2_positive(sum) * 0.693147181f * (part / there), there > 0.0f);
+  return choose(part, log2_positive(sum) * REAL_OF(0.69314718055994531) * (part / there),
+                there > 0.0f);
 }
 
 // ln of value / m, and 0 below m.
@@ -23,7 +24,7 @@ INLINED VALUE log_from_least(VALUE value, const FieldScaling map) {
 
 // asinh(v) - asinh(m) = asinh(v sqrt(1 + m^2) - m sqrt(1 + v^2)), of two numbers with the same sign
 // by the difference of their squares. Hardly any fields are taken so.
-SELDOM_CALLED VALUE asinh_from_least(VALUE value, float m, float m_low, float factor) {
+SELDOM_CALLED VALUE asinh_from_least(VALUE value, REAL m, REAL m_low, REAL factor) {
   const VALUE v = min(max(value, (VALUE)(-1e18f)), (VALUE)(1e18f));
   const VALUE difference = (v - m) - m_low;
   const VALUE from_v = v * factor, from_m = m * sqrt(1.0f + v * v);
@@ -42,7 +43,8 @@ INLINED VALUE normalized(VALUE value, const FieldScaling map) {
   }
   VALUE scaled = value;
   if (map.scaling == SCALING_LOG) {
-    scaled = choose((VALUE)(-INFINITY), log2_positive(max(value, (VALUE)(1e-45f))) * 0.301029996f,
+    scaled = choose((VALUE)(-INFINITY),
+                    log2_positive(max(value, (VALUE)(1e-45f))) * REAL_OF(0.30102999566398120),
                     value > 0.0f);
   }
   if (map.scaling == SCALING_ASINH) scaled = asinh(value);

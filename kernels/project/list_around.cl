@@ -13,8 +13,8 @@ KERNEL_BODY void list_block(const ProjectParameters* of_frame, const Columns* of
                             uint block, __global uint* listed, uint capacity) {
   const ProjectParameters p = *of_frame;
   const Columns columns = *of_particles;
-  const uint begin = p.first_particle + block * p.block_particles;
-  const uint end = min(begin + p.block_particles, p.end_particle);
+  const uint begin = p.launch.first_particle + block * p.launch.block_particles;
+  const uint end = min(begin + p.launch.block_particles, p.launch.end_particle);
   for (uint i = begin; i < end; i += LANES) {
     const ParticleLanes particles = load_particles(columns, i, end, p);
     const Vectors offset = offset_from(particles.position, p.position_high, p.position_low);

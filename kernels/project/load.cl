@@ -105,8 +105,8 @@ INLINED void ask_for_particles(const Columns columns, uint i, const ProjectParam
 #if LANES == 16
   ask_for(columns.positions + (size_t)ahead * 3 + 32);
 #endif
-  ask_for(columns.smoothing_lengths + (size_t)ahead * p.smoothing_length_stride);
-  ask_for(columns.colors + (size_t)ahead * p.color_stride);
+  ask_for(columns.smoothing_lengths + (size_t)ahead * p.launch.smoothing_length_stride);
+  ask_for(columns.colors + (size_t)ahead * p.launch.color_stride);
 }
 #endif
 
@@ -120,14 +120,14 @@ INLINED ParticleLanes load_particles(const Columns columns, uint i, uint end,
 #else
   particles.exists = 1;
 #endif
-  particles.h = load_values(columns.smoothing_lengths, i, end, p.smoothing_length_stride);
-  particles.weight = load_values(columns.weights, i, end, p.weight_stride);
-  particles.color = load_values(columns.colors, i, end, p.color_stride);
-  particles.intensity = load_values(columns.intensities, i, end, p.intensity_stride);
-  particles.sort_field = load_values(columns.sort_fields, i, end, p.sort_stride);
+  particles.h = load_values(columns.smoothing_lengths, i, end, p.launch.smoothing_length_stride);
+  particles.weight = load_values(columns.weights, i, end, p.launch.weight_stride);
+  particles.color = load_values(columns.colors, i, end, p.launch.color_stride);
+  particles.intensity = load_values(columns.intensities, i, end, p.launch.intensity_stride);
+  particles.sort_field = load_values(columns.sort_fields, i, end, p.launch.sort_stride);
   particles.position = load_vectors(columns.positions, i, end);
   if (VECTOR_COLORS)
-    particles.own_color = load_colors(columns.own_colors, i, end, p.own_color_stride);
+    particles.own_color = load_colors(columns.own_colors, i, end, p.launch.own_color_stride);
   return particles;
 }
 

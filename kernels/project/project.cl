@@ -1,8 +1,12 @@
 // Particles to splats. A work-item walks one block of particles and writes the visible
 // ones one after the other from its own offset, so their order is the file's.
+#include "kernels/common/common.cl"
+#include "kernels/project/project.h"
+#if DOUBLE_NUMBERS
+#include "kernels/project/exact_point.cl"
+#endif
 #include "kernels/bin/tile_lanes.cl"
 #include "kernels/bin/tiles.cl"
-#include "kernels/common/common.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/pieces.cl"
@@ -11,9 +15,8 @@
 #include "kernels/common/splat.h"
 #include "kernels/extended/extended_splat.h"
 #include "kernels/project/depth_key.cl"
+#include "kernels/project/extended_splat.cl"
 #include "kernels/project/load.cl"
-#include "kernels/project/project.h"
-#include "kernels/project/project_extended.cl"
 #include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_arrays.cl"
 #include "kernels/project/splat_lanes.cl"
@@ -26,8 +29,8 @@
 #define SPLATS_WRITTEN_AHEAD 64
 
 static inline uint blocks_of(const ProjectParameters p) {
-  const uint particles = p.end_particle - p.first_particle;
-  return particles / p.block_particles + (particles % p.block_particles != 0);
+  const uint particles = p.launch.end_particle - p.launch.first_particle;
+  return particles / p.launch.block_particles + (particles % p.launch.block_particles != 0);
 }
 
 INLINED KeyBins no_bins(void) {
@@ -91,7 +94,7 @@ INLINED BlockCounts no_counts(void) {
 // The splats of LANES particles from i on; false where none is visible. `of_block` counts what is
 // no splat.
 INLINED int find_splats(uint i, uint end, const ProjectParameters* p,
-                        __global const WidthNeeds* width_needs, const ExtendedParameters* e,
+                        __global const WidthNeeds* width_needs, const SharpParameters* e,
                         const Columns columns, BlockCounts* of_block, SplatArrays* found) {
   SplatLanes lanes = project_lanes(i, end, *p, width_needs, *e, columns);
   if (ANY(lanes.bad)) of_block->bad += count_true(lanes.bad);
@@ -123,25 +126,25 @@ INLINED int find_splats(uint i, uint end, const ProjectParameters* p,
 // A call: of a kernel itself PoCL makes three copies, and this is half of what it compiles. The
 // lanes' numbers are an argument so that their registers are used (lanes.cl).
 __attribute__((noinline)) static void project_block(
-    uint block, const ProjectParameters* of_frame, const ExtendedParameters* extended_of_frame,
+    uint block, const ProjectParameters* of_frame, const SharpParameters* sharp_of_frame,
     INTEGER lane, const Columns* of_component, __global const uint* offsets,
     __global const WidthNeeds* width_needs, __global const uint* left_out,
     __global const ComponentColors* component_colors, __global const float* knots,
     __global const Grid* grids, const ProjectTargets* targets) {
   const ProjectParameters p = *of_frame;
-  const ExtendedParameters e = *extended_of_frame;
+  const SharpParameters e = *sharp_of_frame;
   const Columns columns = *of_component;
   const ProjectTargets to = *targets;
-  const uint begin = p.first_particle + block * p.block_particles;
-  const uint end = min(begin + p.block_particles, p.end_particle);
-  const uint first_slot = p.first_slot + offsets[p.first_block + block];
+  const uint begin = p.launch.first_particle + block * p.launch.block_particles;
+  const uint end = min(begin + p.launch.block_particles, p.launch.end_particle);
+  const uint first_slot = p.launch.first_slot + offsets[p.launch.first_block + block];
   uint slot = first_slot;
   BlockCounts of_block = no_counts();
   KeyBins bins = no_bins();
   const CountedTiles counted = counted_tiles(to.tile_counts, block, blocks_of(p), p.tile_count);
   if (COUNT_TILES) clear_counts(counted, p.tile_count, p.has_parts);
   WaitingCounts waiting = no_waiting_counts();
-  const int is_left_out = p.leaves_out_blocks && left_out[block] != 0;
+  const int is_left_out = p.launch.leaves_out_blocks && left_out[block] != 0;
   if (is_left_out) of_block.bad = left_out[block] - 1;
   for (uint i = begin; i < end && !is_left_out; i += LANES) {
     SplatArrays found;
@@ -157,13 +160,10 @@ __attribute__((noinline)) static void project_block(
       if (SORT_KEYS && !is_in_window(key, p)) continue;
       Splat splat;
       ExtendedSplat extended;
-      if (EXTENDED_NUMBERS) {
-        if (!extended_splat(i + k, p, e, columns, component_colors, knots, &splat, &extended))
-          continue;
-      } else if (OUTPUT_SPLATS) {
-        splat = splat_of(&found, k);
-      }
-      const Copies copies = copies_of(&found, k, &splat, p);
+      if (OUTPUT_SPLATS) splat = splat_of(&found, k);
+      if (OUTPUT_SPLATS && EXTENDED_NUMBERS)
+        extended = extended_splat(&found, k, component_colors, knots, p);
+      const Copies copies = copies_of(&found, k, p);
       for (int number = copies.first; number <= copies.last; ++number) {
         if (OUTPUT_SPLATS) {
           const Copy copy = copy_of_number(number, copies);
@@ -172,7 +172,7 @@ __attribute__((noinline)) static void project_block(
           __global Splat* kept = to.splats + slot;
           ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
           store_splat(&found, k, listed, kept);
-          if (EXTENDED_NUMBERS) to.extended_splats[slot] = copy_of(copy, extended, e);
+          if (EXTENDED_NUMBERS) to.extended_splats[slot] = copy_of(copy, extended, p);
           if (COUNT_TILES) {
             list_splat(listed, kept, grids + grid_of(listed), is_visible, counted, to.tiles + slot,
                        &waiting);
@@ -189,7 +189,7 @@ __attribute__((noinline)) static void project_block(
   }
   if (COUNT_TILES) count_waiting(&waiting, counted.tiles);
   of_block.visible = slot - first_slot;
-  to.counts[p.first_block + block] = of_block;
+  to.counts[p.launch.first_block + block] = of_block;
   if (COUNT_KEYS) to.key_bins[block] = bins;
 }
 
@@ -200,7 +200,7 @@ __attribute__((noinline)) static void project_block(
 // COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's.
 // Where there are keys, only splats in the window of keys are there. Of a block that no part of the
 // picture shows, left_out[b] is the number of its bad particles and 1 more, else 0.
-__kernel void project(const ProjectParameters p, const ExtendedParameters e,
+__kernel void project(const ProjectParameters p, const SharpParameters e,
                       __global const float* positions, __global const float* smoothing_lengths,
                       __global const float* weights, __global const float* colors,
                       __global const float* intensities, __global const float* sort_fields,

@@ -1,15 +1,18 @@
 // Particles to splats for GPUs: a work-item per particle, a group for each block of them, which
 // writes its splats in the order of the file.
 #include "kernels/common/common.cl"
+#include "kernels/project/project.h"
+#if DOUBLE_NUMBERS
+#include "kernels/project/exact_point.cl"
+#endif
 #include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/splat.h"
 #include "kernels/extended/extended_splat.h"
 #include "kernels/project/depth_key.cl"
+#include "kernels/project/extended_splat.cl"
 #include "kernels/project/load.cl"
-#include "kernels/project/project.h"
-#include "kernels/project/project_extended.cl"
 #include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_arrays.cl"
 #include "kernels/project/splat_lanes.cl"
@@ -27,13 +30,12 @@ INLINED SplatLanes no_splat(void) {
 
 // Particle i, with what its depth key decides.
 KERNEL_BODY void project_particle(uint i, const ProjectParameters* p,
-                                  __global const WidthNeeds* width_needs,
-                                  const ExtendedParameters* e, const Columns* columns,
-                                  SplatLanes* lanes) {
-  *lanes = project_lanes(i, p->end_particle, *p, width_needs, *e, *columns);
+                                  __global const WidthNeeds* width_needs, const SharpParameters* e,
+                                  const Columns* columns, SplatLanes* lanes) {
+  *lanes = project_lanes(i, p->launch.end_particle, *p, width_needs, *e, *columns);
   const int unclear = (lanes->visible | lanes->too_sharp) & lanes->unclear;
   if (unclear) {
-    const int within = are_within_limits(i, p->end_particle, unclear, *columns, *p);
+    const int within = are_within_limits(i, p->launch.end_particle, unclear, *columns, *p);
     lanes->visible &= within;
     lanes->too_sharp &= within;
   }
@@ -42,7 +44,7 @@ KERNEL_BODY void project_particle(uint i, const ProjectParameters* p,
 // As project.cl says. left_out[b] is that of a launch's group b, whose items meet every barrier all
 // the same.
 __kernel OF_GROUPS void project(
-    const ProjectParameters p, const ExtendedParameters e, __global const float* positions,
+    const ProjectParameters p, const SharpParameters e, __global const float* positions,
     __global const float* smoothing_lengths, __global const float* weights,
     __global const float* colors, __global const float* intensities,
     __global const float* sort_fields, __global const float* own_colors,
@@ -54,8 +56,8 @@ __kernel OF_GROUPS void project(
     __global uint* tiles) {
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
-  const uint item = get_local_id(0), block = p.first_block + get_group_id(0);
-  const uint bad_and_one = p.leaves_out_blocks ? left_out[get_group_id(0)] : 0;
+  const uint item = get_local_id(0), block = p.launch.first_block + get_group_id(0);
+  const uint bad_and_one = p.launch.leaves_out_blocks ? left_out[get_group_id(0)] : 0;
   __local KeyBins bins;
   if (item == 0) {
     of_group.visible = of_group.too_sharp = of_group.around = 0;
@@ -65,38 +67,37 @@ __kernel OF_GROUPS void project(
   }
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields, own_colors);
-  const uint i = p.first_particle + get_global_id(0);
+  const uint i = p.launch.first_particle + get_global_id(0);
   SplatLanes lanes = no_splat();
-  if (i < p.end_particle && bad_and_one == 0)
+  if (i < p.launch.end_particle && bad_and_one == 0)
     project_particle(i, &p, width_needs, &e, &columns, &lanes);
   uint count = lanes.visible != 0;
   ulong key = 0;
   if (SORT_KEYS && count) {
-    key = sort_keys_of(columns, i, p.end_particle, lanes.sort_field, p);
+    key = sort_keys_of(columns, i, p.launch.end_particle, lanes.sort_field, p);
     count = is_in_window(key, p);
   }
   Splat splat;
   ExtendedSplat extended;
   SplatArrays found;
-  if (EXTENDED_NUMBERS) {
-    count = count && extended_splat(i, p, e, columns, component_colors, knots, &splat, &extended);
-  } else if (count) {
+  if (count) {
     spread(lanes, 0, &found);
     splat = splat_of(&found, 0);
+    if (EXTENDED_NUMBERS) extended = extended_splat(&found, 0, component_colors, knots, p);
   }
   Copies copies = one_copy();
   if (COPIES && count) {
-    copies = copies_of(&found, 0, &splat, p);
+    copies = copies_of(&found, 0, p);
     count = copies.first > copies.last ? 0u : (uint)(copies.last - copies.first + 1);
   }
   uint total;
-  uint slot = p.first_slot + offsets[block] + group_scan(count, sums, &total);
+  uint slot = p.launch.first_slot + offsets[block] + group_scan(count, sums, &total);
   for (uint k = 0; OUTPUT_SPLATS && k < count; ++k, ++slot) {
     const Copy copy = copy_of_number(copies.first + (int)k, copies);
     Splat listed = splat;
     if (COPIES) put_copy(&listed, copy, p);
     splats[slot] = listed;
-    if (EXTENDED_NUMBERS) extended_splats[slot] = copy_of(copy, extended, e);
+    if (EXTENDED_NUMBERS) extended_splats[slot] = copy_of(copy, extended, p);
     if (OUTPUT_KEYS) {
       keys[slot] = (uint)(key >> 16);
       if (!p.sort_by_field) key_ends[slot] = (ushort)key;

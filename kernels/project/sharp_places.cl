@@ -1,12 +1,13 @@
 // Places of splats so sharp, or so bright, that single precision would show: in extended numbers.
 #include "kernels/common/common.cl"
+#include "kernels/project/project.h"
+#if DOUBLE_NUMBERS
+#include "kernels/project/exact_point.cl"
+#endif
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/extended/extended.cl"
 #include "kernels/extended/extended_value.cl"
 #include "kernels/project/load.cl"
-#include "kernels/project/place_extended.cl"
-#include "kernels/project/project.h"
 #include "kernels/project/view.cl"
 
 #pragma OPENCL FP_CONTRACT OFF
@@ -33,36 +34,58 @@ INLINED INTEGER are_sharp(const ViewLanes view, VALUE sigma, VALUE peak,
 // Of the lanes that are asked for: places, and what widths follow from.
 typedef struct PlaceArrays {
   int asked[LANES];
-  float x[LANES], x_low[LANES], y[LANES], y_low[LANES], scale[LANES];
-  float cos_latitude[LANES], sine_latitude[LANES];
+  REAL x[LANES], x_low[LANES], y[LANES], y_low[LANES], scale[LANES];
+  REAL cos_latitude[LANES], sine_latitude[LANES];
 } PlaceArrays;
+
+#if DOUBLE_NUMBERS
+static inline double in_double(FloatPair a) {
+  return (double)a.high + (double)a.low;
+}
+static inline double along_in_double(const double* d, const FloatPair* axis) {
+  return d[0] * in_double(axis[0]) + d[1] * in_double(axis[1]) + d[2] * in_double(axis[2]);
+}
+
+static inline ExactPoint exact_point(__global const float* position, const SharpParameters e) {
+  double d[3], turn_axis[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* camera = e.position[axis];
+    d[axis] = (double)position[axis] - ((double)camera[0] + (double)camera[1] + (double)camera[2]);
+    turn_axis[axis] = in_double(e.turn_axis[axis]);
+  }
+  const double distance = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  return project_exactly(along_in_double(d, e.right), along_in_double(d, e.down),
+                         along_in_double(d, e.forward), distance, in_double(e.pixels_per_length),
+                         in_double(e.eye_offset), turn_axis);
+}
 
 // Hardly any splats are.
 SELDOM_CALLED void find_sharp_places(uint i, uint end, const Columns columns,
-                                     const ProjectParameters p, const ExtendedParameters e,
-                                     PlaceArrays* places) {
+                                     const SharpParameters e, PlaceArrays* places) {
   for (uint k = 0; k < LANES && i + k < end; ++k) {
     if (!places->asked[k]) continue;
-    const ExtendedPlace place = extended_place(columns.positions + (size_t)(i + k) * 3, p, e);
-    if (!place.seen) continue;
-    const Extended x = extended_difference(place.x, extended_of(e.middle_x));
-    const Extended y = extended_difference(place.y, extended_of(e.middle_y));
-    places->x[k] = high_part(x);
-    places->x_low[k] = low_part(x);
-    places->y[k] = high_part(y);
-    places->y_low[k] = low_part(y);
-    places->scale[k] = high_part(place.scale);
-    if (COPIES) {
-      places->cos_latitude[k] = high_part(place.cos_latitude);
-      places->sine_latitude[k] = high_part(place.sine_latitude);
-    }
+    const ExactPoint point = exact_point(columns.positions + (size_t)(i + k) * 3, e);
+    if (!point.seen) continue;
+    const double x = in_double(e.center_from_middle_x) + point.x;
+    const double y = in_double(e.center_from_middle_y) + point.y;
+    places->x[k] = (float)x;
+    places->x_low[k] = (float)(x - (double)(float)x);
+    places->y[k] = (float)y;
+    places->y_low[k] = (float)(y - (double)(float)y);
+    places->scale[k] = (float)point.scale;
+    places->cos_latitude[k] = (float)point.cos_latitude;
+    places->sine_latitude[k] = (float)point.sine_latitude;
   }
 }
+#else
+// Without double precision they count as too sharp.
+INLINED void find_sharp_places(uint i, uint end, const Columns columns, const SharpParameters e,
+                               PlaceArrays* places) {}
+#endif
 
 // The view of these lanes as well as extended numbers know it.
 INLINED ViewLanes sharp_view_in_wide_angle(ViewLanes view, INTEGER sharp, uint i, uint end,
-                                           const Columns columns, const ProjectParameters p,
-                                           const ExtendedParameters e) {
+                                           const Columns columns, const SharpParameters e) {
   PlaceArrays places;
   STORE(sharp, places.asked);
   STORE(view.x, places.x);
@@ -72,7 +95,7 @@ INLINED ViewLanes sharp_view_in_wide_angle(ViewLanes view, INTEGER sharp, uint i
   STORE(view.scale, places.scale);
   STORE(view.cos_latitude, places.cos_latitude);
   STORE(view.sine_latitude, places.sine_latitude);
-  find_sharp_places(i, end, columns, p, e, &places);
+  find_sharp_places(i, end, columns, e, &places);
   view.x = LOAD(places.x);
   view.x_low = LOAD(places.x_low);
   view.y = LOAD(places.y);
@@ -98,7 +121,7 @@ INLINED ExtendedValue along_in_extended(const ExtendedValue* d, const FloatPair*
 
 // The view of these lanes as well as extended numbers know it.
 INLINED ViewLanes sharp_view_in_plane(ViewLanes view, INTEGER sharp, const Vectors position,
-                                      const ProjectParameters p, const ExtendedParameters e) {
+                                      const ProjectParameters p, const SharpParameters e) {
   ExtendedValue d[3];
   d[0] = offset_in_extended(position.x, e.position[0]);
   d[1] = offset_in_extended(position.y, e.position[1]);

@@ -27,9 +27,10 @@ INLINED UNSIGNED_WIDE sort_keys_of(const Columns columns, uint i, uint end, VALU
 }
 
 static inline int is_in_window(ulong key, const ProjectParameters p) {
-  return key >= (ulong)wide_integer(p.window_first) && key < (ulong)wide_integer(p.window_end);
+  return key >= (ulong)wide_integer(p.launch.window_first) &&
+         key < (ulong)wide_integer(p.launch.window_end);
 }
 
 static inline uint bin_of(ulong key, const ProjectParameters p) {
-  return (uint)(key >> p.bin_shift) & (KEY_BINS - 1u);
+  return (uint)(key >> p.launch.bin_shift) & (KEY_BINS - 1u);
 }

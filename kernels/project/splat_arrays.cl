@@ -19,7 +19,7 @@
   (TILES_OF_LANES && LANES > 1 && !ELLIPSES && !VECTOR_COLORS && !FINE_PLACES)
 // Blocks have room for all their particles (projector.cpp): a splat that is not visible is written,
 // too, and the next one over it. Which these are no processor foresees.
-#define WRITES_ALL_LANES (SPLATS_OF_EIGHT_WORDS && !EXTENDED_NUMBERS)
+#define WRITES_ALL_LANES SPLATS_OF_EIGHT_WORDS
 // Where grids are in memory as a whole, and no splat has to have its tiles found again, all lanes
 // are counted in tiles that are known already.
 #define COUNTS_ALL_LANES (WRITES_ALL_LANES && COUNT_TILES)
@@ -39,8 +39,11 @@ typedef struct SplatArrays {
 } SplatArrays;
 
 // Of one lane.
+INLINED REAL real_of(VALUE values, uint k) {
+  return ((const REAL*)&values)[k];
+}
 INLINED float value_of(VALUE values, uint k) {
-  return ((const float*)&values)[k];
+  return (float)real_of(values, k);
 }
 INLINED int integer_of(INTEGER values, uint k) {
   return ((const int*)&values)[k];
@@ -145,14 +148,8 @@ INLINED Splat splat_of(const SplatArrays* a, uint k) {
 }
 
 // Of a panorama, in which a splat may show several times.
-INLINED Copies copies_of(const SplatArrays* found, uint k, const Splat* splat,
-                         const ProjectParameters p) {
+INLINED Copies copies_of(const SplatArrays* found, uint k, const ProjectParameters p) {
   if (!COPIES) return one_copy();
-  if (EXTENDED_NUMBERS) {
-    return copies_in_picture(pixels_from_middle(splat->x, *splat, p),
-                             pixels_from_middle(splat->y, *splat, p), RADIUS_X(*splat),
-                             splat->radius, p);
-  }
   const SplatLanes* const s = &found->lanes;
   return copies_in_picture(value_of(s->x, k), value_of(s->y, k), value_of(s->radius_x, k),
                            value_of(s->radius, k), p);

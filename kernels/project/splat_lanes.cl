@@ -17,7 +17,7 @@
 
 // Particles from i on; those at or beyond `end` are neither visible nor bad.
 INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
-                                 __global const WidthNeeds* needs, const ExtendedParameters e,
+                                 __global const WidthNeeds* needs, const SharpParameters e,
                                  const Columns columns) {
   SplatLanes s;
   const ParticleLanes particles = load_particles(columns, i, end, p);
@@ -33,11 +33,6 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   }
   WidthLanes widths = find_widths(particles.h, view, p);
   view = place_of_splat(view, widths);
-  if (EXTENDED_NUMBERS) {
-    s.visible = particles.exists & good & may_be_seen_extended(view, widths, p);
-    s.unclear = s.visible;
-    return s;
-  }
   const LimitLanes limits = compare_with_limits(view, widths.h, p);
   s.unclear = limits.unclear;
   s.visible = particles.exists & good & limits.may_be_within & may_be_seen(view, widths, p);
@@ -56,7 +51,9 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
   if (ANY(sharp)) {
     s.too_sharp = sharp & are_too_sharp(view, narrow_sigma(widths), brightness.own_peak,
                                         brightness.crowd_peak, p);
-    view = WIDE_ANGLE ? sharp_view_in_wide_angle(of_center, sharp, i, end, columns, p, e)
+    // Places in wide angles need double precision.
+    if (WIDE_ANGLE) s.too_sharp |= sharp & (INTEGER)(DOUBLE_NUMBERS ? 0 : -1);
+    view = WIDE_ANGLE ? sharp_view_in_wide_angle(of_center, sharp, i, end, columns, e)
                       : sharp_view_in_plane(of_center, sharp, particles.position, p, e);
     widths = find_widths(particles.h, view, p);
     view = place_of_splat(view, widths);
@@ -66,6 +63,7 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                            ? (VALUE)(p.kernel_cut)
                            : truncation_extent(brightness.own_peak, brightness.farther, p);
   place_on_grid(&s, view, widths, sampled, brightness, extent, p);
+  if (EXTENDED_NUMBERS) make_room_for_roundings(&s, p);
   keep_those_that_reach(&s, p);
   s.weight = restored_weight(s.weight, drawn_sigma(widths), extent, sampled.by_mean,
                              are_placed_as_stencils(s), p);

@@ -71,8 +71,3 @@ static inline void put_copy(Splat* splat, const Copy copy, const ProjectParamete
   splat->place_fractions = (splat->place_fractions & 0xffffu) | ((uint)fraction_y << 16);
 #endif
 }
-
-static inline float pixels_from_middle(int place, const Splat splat, const ProjectParameters p) {
-  const int bits = p.place_bits - (int)(splat.component_and_grid >> 24);
-  return (float)place * as_float((127 - bits) << 23);
-}

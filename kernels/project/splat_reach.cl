@@ -13,8 +13,8 @@
 // How far the center lies beyond a rectangle of the picture, along the axis where it is farthest,
 // in pixels of its grid; below 0: within. Along x a wide splat counts as if it were as wide as it
 // is high.
-INLINED VALUE distance_beyond(const SplatLanes s, float left, float right_end, float top,
-                              float bottom, const ProjectParameters p) {
+INLINED VALUE distance_beyond(const SplatLanes s, REAL left, REAL right_end, REAL top, REAL bottom,
+                              const ProjectParameters p) {
   const INTEGER level = level_of(s.grid, p);
   const VALUE shrink = AS_VALUE((127 - level) << 23);
   VALUE beyond = max(top * shrink - s.y, s.y - bottom * shrink);
@@ -28,7 +28,7 @@ INLINED VALUE distance_beyond(const SplatLanes s, float left, float right_end, f
 
 // How much farther than their radius splats may be from what is in memory of a coarse grid; from
 // the whole picture a grid's guard.
-INLINED VALUE room_beside(const SplatLanes s, float beside) {
+INLINED VALUE room_beside(const SplatLanes s, REAL beside) {
   return choose((VALUE)(0.0f), (VALUE)(beside), s.grid > 0);
 }
 
@@ -50,6 +50,14 @@ INLINED INTEGER are_placed_as_stencils(const SplatLanes s) {
   return (s.grid > 0) & (s.sigma < 0.0f);
 }
 
+// Splats in memory are rounded to floats, by which their tiles are chosen, and copies lie up to
+// four periods farther, or three and as far over a pole.
+INLINED void make_room_for_roundings(SplatLanes* s, const ProjectParameters p) {
+  const VALUE far = fabs(s->x) + fabs(s->y) + (COPIES ? 4.0f * p.period : 0.0f);
+  s->radius = s->radius * 1.000001f + 2e-7f * far;
+  if (ELLIPSES) s->radius_x = s->radius_x * 1.000001f + 2e-7f * far;
+}
+
 // Leaves out splats whose squares do not reach what is in memory of their grid, or nearly. Those
 // that end short of it by no more than their own radius leave something out, though: they are
 // listed, with a minus before a radius that reaches, so that the check after drawing knows them,
@@ -62,7 +70,7 @@ INLINED void keep_those_that_reach(SplatLanes* s, const ProjectParameters p) {
   const float rounding = p.has_parts ? (float)max(p.width, p.height) * 0x1p-20f : 0.0f;
   // The first pixel's center lies half a pixel within.
   const INTEGER reaches = (beyond + 0.5f <= s->radius + room + rounding) & shows_in_picture(*s, p);
-  if (COPIES) {
+  if (COPIES || EXTENDED_NUMBERS) {
     s->visible &= reaches;
     return;
   }
@@ -85,50 +93,4 @@ INLINED VALUE restored_weight(VALUE weight, VALUE sigma, VALUE extent, INTEGER b
   const INTEGER faint = (extent <= p.least_extent * 1.00001f) & (stencil == 0);
   const VALUE cut_off = choose((VALUE)(1.0f), sigma / (sigma + 2.0f * extent), by_mean);
   return choose(weight, weight * (1.0f + p.restored_light * cut_off), faint);
-}
-
-// Only what certainly lies off the picture is left out; extended_splat() decides. Ten sigma
-// reach beyond the truncation of any amplitude that single precision holds.
-// Directions in single precision are known to 1e-6, beside an eye that is nearly as far away as
-// the particle to 5e-4; near a pole, or behind a fisheye, that is as wide as it magnifies.
-INLINED INTEGER is_off_in_wide_angle(const ViewLanes view, const WidthLanes widths,
-                                     const ProjectParameters p) {
-  const float focal = p.pixels_per_length;
-  VALUE sigma = widths.sigma;
-  if (FACE_OF_CUBE) {
-    sigma =
-        max(widths.face.sigma_x, widths.face.sigma_y) * face_reach(widths.face, (VALUE)(10.0f), p);
-  }
-  const VALUE reach =
-      10.0f * fabs(sigma) + 4.0f + 5e-3f * focal + 1e-4f * (fabs(view.x) + fabs(view.y));
-  INTEGER off = view.y + reach<p.top | view.y - reach> p.bottom;
-  if (COPIES) {
-    const VALUE reach_x = 10.0f * fabs(widths.sigma_x) + 4.0f +
-                          1e-3f * focal / max(view.cos_latitude - 1e-3f, (VALUE)(0.0f));
-    off |= ceil((p.left - reach_x - view.x) / p.period) >
-           floor((p.right_end + reach_x - view.x) / p.period);
-  } else {
-    off |= view.x + reach<p.left | view.x - reach> p.right_end;
-  }
-  if (PROJECTION_FISHEYE) {
-    const VALUE x = view.x - p.center_x, y = view.y - p.center_y;
-    off &= x * x + y * y < 9.6f * focal * focal;
-  }
-  return off;
-}
-
-INLINED INTEGER is_off_in_plane(const ViewLanes view, const WidthLanes widths,
-                                const ProjectParameters p) {
-  const Vectors d = view.offset;
-  const VALUE rounding = 1e-6f * (fabs(d.x) + fabs(d.y) + fabs(d.z)) * fabs(view.scale);
-  const VALUE reach =
-      10.0f * fabs(widths.sigma) + 4.0f + rounding + 1e-4f * (fabs(view.x) + fabs(view.y));
-  return view.x + reach<p.left | view.x - reach> p.right_end |
-         view.y + reach<p.top | view.y - reach> p.bottom;
-}
-
-INLINED INTEGER may_be_seen_extended(const ViewLanes view, const WidthLanes widths,
-                                     const ProjectParameters p) {
-  return (WIDE_ANGLE ? is_off_in_wide_angle(view, widths, p) : is_off_in_plane(view, widths, p)) ==
-         0;
 }

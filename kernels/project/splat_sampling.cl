@@ -76,7 +76,7 @@ INLINED void place_on_grid(SplatLanes* s, const ViewLanes view, const WidthLanes
   // A pixel mean sees a splat that reaches the pixel's edge. A cut disc has the radius of
   // the model's sigma, not of the widened one, and means always keep the pixel at its center.
   const VALUE edge = choose((VALUE)(0.0f), (VALUE)(0.5f), sampled.by_mean);
-  const float cut_edge = p.widening > 0.0f ? 0.5f : 0.0f;
+  const float cut_edge = SAMPLING_MEAN ? 0.5f : 0.0f;
   s->radius = p.kernel_cut > 0.0f ? p.kernel_cut * drawn_sigma(widths) * shrink + cut_edge
                                   : extent * s->sigma + edge;
   s->radius = choose(s->radius, (VALUE)(STENCIL_RADIUS), stencil);

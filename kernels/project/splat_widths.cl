@@ -58,7 +58,7 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
   WidthLanes widths;
   widths.h = raw_h * p.size_factor;
   widths.sigma_true = p.sigma_per_h * raw_h * view.scale;
-  const float widened_by = max(p.kernel_width * p.min_radius, p.footprint_sigma);  // one is 0
+  const REAL widened_by = max(p.kernel_width * p.min_radius, p.footprint_sigma);  // one is 0
   VALUE sigma = widened_by > 0.0f
                     ? sqrt(widths.sigma_true * widths.sigma_true + widened_by * widened_by)
                     : widths.sigma_true;
@@ -68,7 +68,7 @@ INLINED WidthLanes find_widths(VALUE raw_h, const ViewLanes view, const ProjectP
   }
   widths.sigma = widths.sigma_weighed = max(sigma, (VALUE)(NARROWEST_SIGMA));
   if (FACE_OF_CUBE) {
-    const float per_focal = 1.0f / p.pixels_per_length;
+    const REAL per_focal = 1.0f / p.pixels_per_length;
     widths.face = face_ellipse(widths.sigma, (view.x - p.center_x) * per_focal,
                                (view.y - p.center_y) * per_focal, p);
     widths.part = face_part(widths.face, (VALUE)(p.reach), p);

@@ -3,12 +3,12 @@
 #include "kernels/common/lanes.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"
-#include "kernels/project/wide_angle.cl"
+#include "kernels/project/wide_angle_point.cl"
 
 // A chain of differences: none is to be joined with the product behind it.
 #pragma OPENCL FP_CONTRACT OFF
 
-INLINED Vectors offset_from(Vectors position, const float* high, const float* low) {
+INLINED Vectors offset_from(Vectors position, const REAL* high, const REAL* low) {
   Vectors d;
   d.x = (position.x - high[0]) - low[0];
   d.y = (position.y - high[1]) - low[1];
@@ -16,11 +16,11 @@ INLINED Vectors offset_from(Vectors position, const float* high, const float* lo
   return d;
 }
 
-static inline VALUE along(Vectors d, const float* axis) {
+static inline VALUE along(Vectors d, const REAL* axis) {
   return (d.x * axis[0] + d.y * axis[1]) + d.z * axis[2];
 }
 
-static inline VALUE squared_distance(Vectors d, float inverse_unit) {
+static inline VALUE squared_distance(Vectors d, REAL inverse_unit) {
   const VALUE x = d.x * inverse_unit, y = d.y * inverse_unit, z = d.z * inverse_unit;
   return (x * x + y * y) + z * z;
 }
@@ -46,7 +46,8 @@ INLINED ViewLanes view_in_wide_angle(const ParticleLanes particles, const Projec
   view.offset = d;
   view.depth = sqrt(squared) / p.length_scale;
   const WideAnglePoint point =
-      project_wide_angle(along(d, p.right), along(d, p.down), along(d, p.forward), view.depth, p);
+      project_wide_angle(along(d, p.right), along(d, p.down), along(d, p.forward), view.depth,
+                         p.pixels_per_length, p.eye_offset, p.turn_axis);
   view.x = p.center_x + point.x;
   view.y = p.center_y + point.y;
   view.scale = point.scale;

@@ -1,73 +1,8 @@
-// Where the projections that look in all directions put a particle (docs/projections.md), on
-// VALUEs (lanes.cl). Directions are unit vectors, so that no square leaves single precision.
+// Ellipses and copies of splats in panoramas (docs/projections.md), on VALUEs (lanes.cl).
 #include "kernels/common/lanes.cl"
 #include "kernels/project/project.h"
 
 #pragma OPENCL FP_CONTRACT OFF
-
-typedef struct WideAnglePoint {
-  VALUE x, y;                         // pixels from the middle of the picture
-  VALUE scale;                        // pixels per length of a cloud's width
-  VALUE cos_latitude, sine_latitude;  // equirectangular
-  VALUE magnification;                // of directions in the picture, but for a panorama's along x
-  INTEGER seen;
-} WideAnglePoint;
-
-// Turned about the head's axis, as an eye beside the camera sees it (Rodrigues' formula).
-static inline void turn(VALUE* x, VALUE* y, VALUE* z, VALUE sine, const float* axis) {
-  const VALUE cosine = sqrt(max(1.0f - sine * sine, (VALUE)(0.0f)));
-  const VALUE along = (*x * axis[0] + *y * axis[1] + *z * axis[2]) * (1.0f - cosine);
-  const VALUE turned_x = *x * cosine + (axis[1] * *z - axis[2] * *y) * sine + axis[0] * along;
-  const VALUE turned_y = *y * cosine + (axis[2] * *x - axis[0] * *z) * sine + axis[1] * along;
-  const VALUE turned_z = *z * cosine + (axis[0] * *y - axis[1] * *x) * sine + axis[2] * along;
-  *x = turned_x;
-  *y = turned_y;
-  *z = turned_z;
-}
-
-// x right, y down, z forward, in lengths.
-static inline WideAnglePoint project_wide_angle(VALUE x, VALUE y, VALUE z, VALUE distance,
-                                                const ProjectParameters p) {
-  WideAnglePoint point;
-  x /= distance;
-  y /= distance;
-  z /= distance;
-  point.seen = distance > 0.0f & distance <= FLT_MAX;
-  if (p.eye_offset != 0.0f) {
-    const VALUE sine = p.eye_offset / distance;
-    point.seen &= fabs(sine) < 1.0f;
-    turn(&x, &y, &z, sine, p.turn_axis);
-  }
-  const float focal = p.pixels_per_length;
-  point.scale = focal / distance;
-  point.cos_latitude = point.magnification = (VALUE)(1.0f);
-  point.sine_latitude = y;
-  if (PROJECTION_FISHEYE) {
-    const VALUE sine_off_axis = sqrt(x * x + y * y);
-    const VALUE angle = atan2(sine_off_axis, z);
-    const INTEGER off_axis = sine_off_axis > 0.0f;
-    const VALUE per_sine = focal * angle / max(sine_off_axis, (VALUE)(FLT_MIN));
-    point.magnification = max(angle / max(sine_off_axis, (VALUE)(FLT_MIN)), (VALUE)(1.0f));
-    point.x = choose(focal * angle, x * per_sine, off_axis);
-    point.y = choose((VALUE)(0.0f), y * per_sine, off_axis);
-    // A cloud keeps its solid angle; right behind the camera it grows no wider.
-    const VALUE least_sine = choose((VALUE)(0.1f), (VALUE)(0.0f), z > 0.0f);
-    const VALUE widening = angle / max(max(sine_off_axis, least_sine), (VALUE)(FLT_MIN));
-    point.scale *= sqrt(choose((VALUE)(1.0f), widening, sine_off_axis > 1e-6f | z <= 0.0f));
-  } else if (PROJECTION_EQUIRECTANGULAR) {
-    point.cos_latitude = sqrt(x * x + z * z);
-    point.x = focal * atan2(x, z);
-    point.y = focal * atan2(y, point.cos_latitude);
-  } else {
-    // What is nearly beside the camera has no light in the face (src/scene/projection.cpp).
-    point.x = focal * x / z;
-    point.y = focal * y / z;
-    point.scale /= max(z, (VALUE)(SMALLEST_COSINE_OF_FACE));
-    point.magnification = 1.0f / max(z * z, (VALUE)(FLT_MIN));
-    point.seen &= z > SMALLEST_COSINE_OF_FACE;
-  }
-  return point;
-}
 
 // The ellipse as which an equirectangular picture shows a cloud of this height: panorama_ellipse()
 // of src/scene/projection.cpp.
@@ -81,13 +16,14 @@ static inline PanoramaEllipse panorama_ellipse(VALUE sigma, VALUE cos_latitude, 
   const VALUE per_s = p.pixels_per_length / sigma;
   const VALUE sine = max(fabs(sine_latitude), (VALUE)(1e-18f));
   const VALUE u = min(cos_latitude * per_s / sine, (VALUE)(1e15f)), u2 = u * u;
-  const VALUE k = 0.5f + 0.773239545f / (1.0f + u2 * (3.09f - 1.8f / (1.0f + 0.5f * u2)));
+  const VALUE k = 0.5f + REAL_OF(0.77323954473516276) /
+                             (1.0f + u2 * (REAL_OF(3.09) - REAL_OF(1.8) / (1.0f + 0.5f * u2)));
   const VALUE root = sqrt(u2 + k), m = u2 / root;
   const VALUE sine_m = cos_latitude * per_s * (u / root);
   PanoramaEllipse ellipse;
   ellipse.nearer = sigma * (u * k / (root * (root + u)));
-  ellipse.sigma_x =
-      1.77245385f * p.pixels_per_length / (sine * exp(-m * m) + 1.77245385f * sine_m * erf(m));
+  ellipse.sigma_x = REAL_OF(1.7724538509055161) * p.pixels_per_length /
+                    (sine * exp(-m * m) + REAL_OF(1.7724538509055161) * sine_m * erf(m));
   return ellipse;
 }
 
@@ -123,8 +59,8 @@ INLINED int is_over_pole(int pole, float y, float radius, const ProjectParameter
 
 static inline Copies copies_in_picture(float x, float y, float radius_x, float radius,
                                        const ProjectParameters p) {
-  const float half_period = 0.5f * p.period;
-  const float most = (float)MOST_HALF_PERIODS;
+  const REAL half_period = 0.5f * p.period;
+  const REAL most = (REAL)MOST_HALF_PERIODS;
   // A pixel more, so that a crop has no fewer for roundings.
   radius_x += 1.0f;
   const int first = (int)clamp(ceil((p.left - radius_x - x) / half_period), -most, most + 1.0f);

@@ -17,7 +17,7 @@ struct PlaceError {
   double of_itself = 0, of_range = 0;
 };
 
-// How exactly a place is known (kernels/project/limits.cl, project_extended.cl): of functions that
+// How exactly a place is known (kernels/project/limits.cl): of functions that
 // are taken of the difference from the least value, of others, and of the difference.
 struct FieldRoundings {
   double from_least, of_function, of_difference;

@@ -8,53 +8,21 @@
 #include <vector>
 
 #include "certificate/certificate.h"
-#include "certificate/expected_needs.h"
-#include "certificate/picture_light.h"
+#include "device/drawn_picture.h"
 #include "device/failing_parts.h"
+#include "device/frame_checks.h"
+#include "device/next_drawing.h"
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
 #include "device/ranks/fetch_particles.h"
-#include "parallel/for_blocks.h"
 #include "parallel/thread_pool.h"
 #include "ranks/exchange.h"
 #include "ranks/spread_particles.h"
-#include "scene/picture_limits.h"
-#include "scene/plan/tried_parts.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
-
-void check_frame(const Frame& frame) {
-  const Rectangle& crop = frame.crop;
-  if (crop.width < 1 || crop.height < 1 || crop.x < 0 || crop.y < 0 ||
-      crop.x > frame.width - crop.width || crop.y > frame.height - crop.height) {
-    throw UsageError("crop: found " + std::to_string(crop.x) + "," + std::to_string(crop.y) + "," +
-                     std::to_string(crop.width) + "," + std::to_string(crop.height) +
-                     ", expected a part of the picture, which is " + std::to_string(frame.width) +
-                     " x " + std::to_string(frame.height) + " pixels");
-  }
-  if (frame.width > largest_side || frame.height > largest_side ||
-      std::int64_t{crop.width} * crop.height > largest_pixel_count) {
-    throw UsageError(
-        "found a picture of " + std::to_string(frame.width) + " x " + std::to_string(frame.height) +
-        " pixels, of which " + std::to_string(std::int64_t{crop.width} * crop.height) +
-        " are drawn, expected sides of at most " + std::to_string(largest_side) + " and at most " +
-        std::to_string(largest_pixel_count) + " pixels drawn at a time");
-  }
-  if (const Image* const background = frame.background_image.get();
-      background != nullptr &&
-      (background->width != frame.width || background->height != frame.height)) {
-    throw UsageError("background_image: found " + std::to_string(background->width) + " x " +
-                     std::to_string(background->height) + " pixels, expected the picture's " +
-                     std::to_string(frame.width) + " x " + std::to_string(frame.height));
-  }
-  if (frame.components.size() > 0xffff) {
-    throw UsageError("found " + std::to_string(frame.components.size()) +
-                     " components, expected at most 65535");
-  }
-}
 
 void note_check(const Certificate& certificate, FrameCheck& check) {
   check.errors_of_promise.push_back(certificate.error_of_promise);
@@ -62,116 +30,11 @@ void note_check(const Certificate& certificate, FrameCheck& check) {
   check.blocks = certificate.blocks;
 }
 
-// The largest of these that the picture has: the worst block that kept the promise at first may
-// have been drawn again with others.
-ErrorParts worst_within(const std::vector<ErrorParts>& candidates, double error_of_promise) {
-  constexpr double rounding = 1e-6;
-  ErrorParts worst;
-  for (const ErrorParts& parts : candidates) {
-    if (parts.sum() <= error_of_promise * (1 + rounding) && parts.sum() > worst.sum())
-      worst = parts;
-  }
-  return worst;
-}
-
 // What is known of splats once they are drawn.
 struct DrawnSplats {
   CollectedSplats collected;
   DrawCounts counts;
 };
-
-// A picture and how well it keeps its promise.
-struct DrawnPicture {
-  Image image;
-  Certificate certificate;
-};
-
-void paste(const DrawnPicture& part, const Rectangle& at, DrawnPicture& whole) {
-  constexpr int side = BlockErrors::block_pixels;
-  for (int y = 0; y < at.height; ++y) {
-    std::copy_n(part.image.at(0, y), 4 * static_cast<std::ptrdiff_t>(at.width),
-                whole.image.at(at.x, at.y + y));
-  }
-  whole.certificate.is_bound &= part.certificate.is_bound;
-  BlockErrors& blocks = whole.certificate.blocks;
-  const BlockErrors& drawn = part.certificate.blocks;
-  for (int y = 0; y < drawn.rows; ++y) {
-    for (int x = 0; x < drawn.columns; ++x) {
-      blocks
-          .errors[static_cast<std::size_t>((at.y / side + y) * blocks.columns + at.x / side + x)] =
-          drawn.at(x * side, y * side);
-    }
-  }
-}
-
-// The plan of the next drawing of a frame that did not keep its promise in `drawings` of them.
-FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate& certificate,
-                    std::size_t drawings) {
-  // What converges does so in a step or two.
-  constexpr std::size_t most_drawings = 4;
-  if (drawings >= most_drawings || certificate.needs_extended) return extend_plan(frame, plan);
-  if (!plan.certify) return refine_plan(frame, plan, certificate.needs);
-  // Bounds fall more slowly than what is shared out: by no less than 4 at a time.
-  return tighten_plan(frame, plan, std::clamp(2 * certificate.error_of_promise, 4.0, 1000.0));
-}
-
-// What a part of the picture takes that is drawn again, besides its pixels, as so many pixels of
-// all that are: all particles are projected anew. Where the whole would be drawn in order, in place
-// of slabs, its list entries are not known.
-double pixels_of_part(const Frame& frame, const FramePlan& plan, const DrawCounts& counts) {
-  // Nanoseconds of two cores (docs/dev/tuning.md, "Slabs").
-  constexpr double start = 1e6, pixel = 50, pixel_in_order = 1000;
-  constexpr double part_in_order = 10, part_of_sum = 20;  // for each particle
-  constexpr double project = 7, sort = 5, entry_in_order = 50, entry_of_sum = 20;
-  const auto particles = static_cast<double>(particle_count(frame));
-  const double of_part = start + (plan.needs_sort() ? part_in_order : part_of_sum) * particles;
-  if (plan.slabs > 0) return of_part / pixel_in_order;
-  const auto entries = static_cast<double>(counts.tile_entries);
-  const double pixels = static_cast<double>(frame.crop.width) * frame.crop.height;
-  const double whole = start + pixel * pixels +
-                       (plan.needs_sort() ? (project + sort) * particles + entry_in_order * entries
-                                          : project * particles + entry_of_sum * entries);
-  return pixels * of_part / whole;
-}
-
-// Whether all ranks that have particles draw.
-void check_ranks(const Frame& frame, const Communicator* ranks) {
-  if (!frame.spread) return;
-  const int drawing = ranks == nullptr ? 1 : ranks->size();
-  if (drawing == frame.spread->ranks().size()) return;
-  throw UsageError("found particles that are spread over " +
-                   std::to_string(frame.spread->ranks().size()) + " processes and a renderer of " +
-                   std::to_string(drawing) +
-                   ", expected one of all of them; give it the same communicator as the snapshot");
-}
-
-void all_cores(std::size_t count, std::size_t block_size,
-               const std::function<void(std::size_t, std::size_t)>& work) {
-  for_blocks(count, block_size, work);
-}
-
-// Of the light of a frame (LightMap): beyond this, what slabs change by their order breaks the
-// promise nearly everywhere.
-constexpr double too_bright_for_slabs = 0.7;
-
-// Widths that hardly show in a part may show elsewhere: their splats are drawn nearly as much
-// farther as those that need it most.
-SplatNeeds with_all_octaves(SplatNeeds needs) {
-  constexpr double less = 1.5;
-  double farthest = 0;
-  for (const WidthNeed& need : needs.widths)
-    farthest = std::max(farthest, need.farther);
-  for (WidthNeed& need : needs.widths)
-    need.farther = std::max(need.farther, farthest - less);
-  return needs;
-}
-
-// From which light on parts of a frame are tried. Of many particles it takes a twentieth of a dim
-// frame, of which few have to be drawn again; of few it takes no longer than a part of them.
-double least_tried(const Frame& frame) {
-  constexpr std::uint64_t many = 1u << 20;
-  return particle_count(frame) > many ? 4 : 0.2;
-}
 
 // Ranks of one host take its devices in turn.
 int device_of_rank(const Communicator* ranks) {
@@ -193,7 +56,7 @@ struct Renderer::State {
     if (options.memory_bytes > 0) device.limit_memory(options.memory_bytes);
     plan_options.certify = options.certify;
     plan_options.slabs = options.slabs;
-    draws_slabs = device.traits.rows || options.slabs >= 0;
+    draws_slabs = device.traits.draws_slabs || options.slabs >= 0;
     progress = options.progress;
     device.programs.use_compilers(options.start_compiler);
   }
@@ -225,8 +88,6 @@ struct Renderer::State {
   RenderStats stats;
   double check_seconds = 0;  // of the frame, by the thread that draws
   PlanOptions plan_options;
-  // Every slab is a launch of each stage, too small for a GPU to be busy: it draws as fast in order
-  // (docs/dev/gpu.md).
   bool draws_slabs = true;
   std::function<void(double)> progress;
   std::shared_ptr<Communicator> ranks;  // null: one process
@@ -242,9 +103,8 @@ void Renderer::State::join_ranks(const RendererOptions& options) {
     device.limit_memory(device.memory.total / static_cast<std::uint64_t>(ranks->size_on_host()));
   const DeviceTraits& traits = device.traits;
   require_same(*ranks, "device",
-               device.device.name() + ", driver " + device.device.driver_version() +
-                   (traits.rows ? ", rows" : ", groups") + (traits.rows_of_16 ? " of 16" : "") +
-                   (traits.double_numbers ? "" : ", pairs"),
+               device.device.name() + ", driver " + device.device.driver_version() + ", " +
+                   shape_name(traits) + (traits.double_numbers ? "" : ", no doubles"),
                "choose the same everywhere with --device");
 }
 
@@ -374,6 +234,7 @@ bool Renderer::State::mend(const Frame& frame, const FramePlan& plan, const Fram
 }
 
 Image Renderer::State::draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
+  if (plan.is_extended()) require_doubles(device);
   std::optional<FrameRanks> of_frame;
   if (ranks) of_frame.emplace(FrameRanks{*ranks, work});
   Pipeline pipeline(device, particles, frame, plan, progress, of_frame ? &*of_frame : nullptr);
@@ -456,22 +317,6 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&& other) noexcept {
   std::swap(state_, other.state_);
   return *this;
-}
-
-FramePlan Renderer::first_plan(const Frame& frame, const PlanOptions& options, bool on_all_cores) {
-  check_frame(frame);
-  FramePlan plan = make_plan(frame, options);
-  if (!can_be_expected(plan)) return plan;
-  const BlockLoop loop = on_all_cores ? all_cores : one_after_the_other;
-  const std::vector<SampledCloud> clouds = sample_clouds(frame, loop);
-  const LightMap light(clouds, frame);
-  const bool may_choose = plan.slabs > 0 && options.slabs < 0;
-  if (may_choose && light.of_bright_quarter() > too_bright_for_slabs)
-    plan = in_order_plan(frame, plan);
-  const std::optional<SplatNeeds> needs = expected_needs(clouds, frame, plan, loop);
-  if (needs) plan = refine_plan(frame, plan, *needs);
-  if (light.brightest() >= least_tried(frame)) plan.tried_parts = light.telling_parts(plan.light);
-  return plan;
 }
 
 Image Renderer::render(const Frame& frame) {

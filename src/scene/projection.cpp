@@ -15,7 +15,7 @@ namespace {
 // Clouds within 6 degrees of it grow no wider.
 constexpr double smallest_sine_behind = 0.1;
 // What lies less than this off the axis is drawn as if it lay on it and to the right: where it
-// would be drawn on the rim is a matter of roundings (kernels/project/wide_angle_extended.cl).
+// would be drawn on the rim is a matter of roundings (kernels/project/wide_angle_point.cl).
 constexpr double sine_on_axis = 0x1p-40;
 
 std::optional<Projected> project_straight(const Vec3& v, const CameraFrame& camera,

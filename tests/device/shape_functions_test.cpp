@@ -10,6 +10,7 @@ namespace splotchcl::test {
 namespace {
 
 constexpr const char* shape_kernel = R"(
+#include "kernels/extended/precise.cl"
 __kernel void evaluate(__global const float* x, __global float* results) {
   const uint i = get_global_id(0);
   STORE(FUNCTION(LOAD(x + LANES * i)), results + LANES * i);
@@ -166,6 +167,21 @@ TEST_P(ShapeFunctions, LogarithmsOfNumbersNearOneErrByPartsOfThemselves) {
   const std::vector<float> x = evenly_spread(1.00001, 1.01, 1 << 16);
   const auto part = [](double found, double at) { return found / std::log2(at) - 1; };
   EXPECT_LE(largest(x, evaluate("log2_positive", Precision::fast, x), part), 3e-7);
+}
+
+// Of kernels/extended/precise.cl.
+TEST_P(ShapeFunctions, PreciseExpAndPhiErrByARoundingOrTwo) {
+  const std::string define = "#define PRECISE_EXP(y) precise_exp_negative(y, (VALUE)(0.0f))\n";
+  const auto of_exp = [](double found, double y) { return found / std::exp(-y) - 1; };
+  const auto of_phi = [](double found, double y) {
+    return found / (y > 0 ? -std::expm1(-y) / y : 1) - 1;
+  };
+  const std::vector<float> far = evenly_spread(0, 80, 1 << 13), near = evenly_spread(0, 5, 1 << 13);
+  EXPECT_LE(largest(far, evaluate("PRECISE_EXP", Precision::full, far, define), of_exp), 1.3e-7);
+  // A division may err by 2.5 units of the last place (OpenCL 7.4); processors round it to half of
+  // one.
+  const double bound = 1.3e-7 + (device().traits.is_gpu ? 2 * 0x1p-23 : 0);
+  EXPECT_LE(largest(near, evaluate("precise_phi", Precision::full, near), of_phi), bound);
 }
 
 // Of kernels/extended/double_lanes.cl.

@@ -174,8 +174,8 @@ TEST_F(Sizes, OfSharedStructuresAreTheHosts) {
   const FramePlan plan = make_plan(frame);
   const Variant variant(frame, plan, device().traits);
   expect_equal_sizes(project_program(variant, ProjectOutput::splats), "project/project.h",
-                     {{"ProjectParameters", sizeof(shared::ProjectParameters)},
-                      {"ExtendedParameters", sizeof(shared::ExtendedParameters)},
+                     {{"ProjectParameters", sizeof(shared::ProjectParameters<double>)},
+                      {"SharpParameters", sizeof(shared::SharpParameters)},
                       {"ExtendedSplat", sizeof(shared::ExtendedSplat)},
                       {"ComponentColors", sizeof(shared::ComponentColors)},
                       {"BlockCounts", sizeof(shared::BlockCounts)},

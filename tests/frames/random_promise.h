@@ -97,18 +97,14 @@ class RandomPromise : public PictureTest {
         << "most should have something to see";
   }
 
-  // With numbers that are doubles and pairs of floats in turn, and both shapes.
   static void expect_tolerance_zero_kept(const RandomKind& kind,
                                          const std::vector<std::uint64_t>& seeds) {
-    Renderer pairs({"", CompositeShape::rows, false});
-    Renderer pairs_in_groups({"", CompositeShape::groups, false});
     for (const std::uint64_t seed : seeds) {
       Frame frame = with_lens(with_footprint(kind.make(seed), seed), seed);
       frame.tolerance = 0;
       const bool in_groups = seed / 2 % 2 == 0;
-      Renderer& by_pairs = in_groups ? pairs_in_groups : pairs;
-      Renderer& by_doubles = renderer(in_groups ? CompositeShape::groups : CompositeShape::rows);
-      expect_kept(kind, frame, seed % 2 == 0 ? by_pairs : by_doubles, seed);
+      expect_kept(kind, frame, renderer(in_groups ? CompositeShape::groups : CompositeShape::rows),
+                  seed);
     }
   }
 };

@@ -24,9 +24,9 @@ const std::vector<HardCase>& all_cases() {
 }
 
 // How the device draws: either shape of compositing at the case's own tolerance, or the most
-// exact mode, whose numbers are doubles or pairs of floats; or in rows, until a bound says that the
-// tolerance is kept, or in slabs where the plan sorts.
-enum class Way { rows, groups, exact, pairs, certified, slabs };
+// exact mode in either shape; or in rows, until a bound says that the tolerance is kept, or in
+// slabs where the plan sorts.
+enum class Way { rows, groups, exact, exact_groups, certified, slabs };
 
 struct CaseRun {
   std::size_t index;
@@ -52,7 +52,7 @@ std::vector<CaseRun> all_runs() {
       if (plan == LightPlan::ordered) runs.push_back({i, plan, Way::slabs});
       if (groups) runs.push_back({i, plan, Way::groups});
       if (exact) runs.push_back({i, plan, Way::exact});
-      if (groups && exact) runs.push_back({i, plan, Way::pairs});
+      if (groups && exact) runs.push_back({i, plan, Way::exact_groups});
     }
   }
   return runs;
@@ -66,8 +66,8 @@ const char* way_name(const CaseRun& run) {
       return "groups";
     case Way::exact:
       return "exact";
-    case Way::pairs:
-      return "pairs";
+    case Way::exact_groups:
+      return "exact_groups";
     case Way::certified:
       return "certified";
     case Way::slabs:
@@ -77,7 +77,7 @@ const char* way_name(const CaseRun& run) {
 }
 
 bool is_exact(const CaseRun& run) {
-  return run.way == Way::exact || run.way == Way::pairs;
+  return run.way == Way::exact || run.way == Way::exact_groups;
 }
 
 std::string run_name(const CaseRun& run) {
@@ -91,8 +91,8 @@ class Bench : public testing::Environment {
     std::unique_ptr<Renderer>& renderer = renderers_[static_cast<std::size_t>(way)];
     if (!renderer) {
       RendererOptions options;
-      options.shape = way == Way::groups ? CompositeShape::groups : CompositeShape::rows;
-      options.use_double = way != Way::pairs;
+      const bool in_groups = way == Way::groups || way == Way::exact_groups;
+      options.shape = in_groups ? CompositeShape::groups : CompositeShape::rows;
       options.certify = way == Way::certified;
       if (way == Way::slabs) options.slabs = 3;
       renderer = std::make_unique<Renderer>(options);

@@ -24,14 +24,14 @@ bool are_of_one_moment(const Particles& particles) {
 
 BlockBoxes::Boxes make_boxes(DeviceContext& device, const Particles& particles,
                              const ParticleBuffers& buffers) {
-  shared::ProjectParameters p{};
-  p.end_particle = static_cast<unsigned>(particles.count);
-  p.block_particles = device.traits.project_block;
-  set_strides(buffers, p);
+  shared::ProjectParameters<float> p{};
+  p.launch.end_particle = static_cast<unsigned>(particles.count);
+  p.launch.block_particles = device.traits.project_block;
+  set_strides(buffers, p.launch);
   const bool has_own_colors = !particles.color_vector.is_absent();
-  const std::size_t count = ceil_divide(particles.count, p.block_particles);
+  const std::size_t count = ceil_divide(particles.count, p.launch.block_particles);
   const auto boxes = device.pool.get<shared::BlockBox>(count, "boxes of blocks");
-  Choices choices = lanes_of(device.traits.rows);
+  Choices choices = lanes_of(device.traits);
   choices.push_back(flag("VECTOR_COLORS", has_own_colors));
   const Program find_boxes =
       device.programs.get(program_source("kernels/project/boxes.cl", choices));

@@ -2,13 +2,13 @@
 
 namespace splotchcl {
 
-void set_strides(const ParticleBuffers& particles, shared::ProjectParameters& parameters) {
-  parameters.smoothing_length_stride = particles.smoothing_length_stride;
-  parameters.weight_stride = particles.weight_stride;
-  parameters.color_stride = particles.color_stride;
-  parameters.intensity_stride = particles.intensity_stride;
-  parameters.sort_stride = particles.sort_stride;
-  parameters.own_color_stride = particles.own_color_stride;
+void set_strides(const ParticleBuffers& particles, shared::ProjectLaunch& launch) {
+  launch.smoothing_length_stride = particles.smoothing_length_stride;
+  launch.weight_stride = particles.weight_stride;
+  launch.color_stride = particles.color_stride;
+  launch.intensity_stride = particles.intensity_stride;
+  launch.sort_stride = particles.sort_stride;
+  launch.own_color_stride = particles.own_color_stride;
 }
 
 Launch& pass_columns(Launch& launch, const ParticleBuffers& particles) {

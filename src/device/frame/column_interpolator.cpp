@@ -19,8 +19,7 @@ shared::InterpolateParameters parameters_of(const DeviceContext& device, const I
   shared::InterpolateParameters p{};
   p.in_first = static_cast<unsigned>(match.place_in_second.size());
   p.particles = static_cast<unsigned>(match.particles());
-  // On a processor an item walks many particles, on a GPU neighbors read neighboring memory.
-  p.particles_of_item = device.traits.rows ? 8192 : 1;
+  p.particles_of_item = device.traits.interpolate_block;
   p.width = static_cast<unsigned>(values_per_particle);
   return p;
 }
@@ -50,13 +49,13 @@ shared::PathParameters parameters_of(const PathNumbers& path, const SnapshotColu
 
 Launch launch_of(DeviceContext& device, const char* kernel) {
   const Program program = device.programs.get(
-      program_source("kernels/interpolate/interpolate.cl", lanes_of(device.traits.rows)));
+      program_source("kernels/interpolate/interpolate.cl", lanes_of(device.traits)));
   return Launch(device, "interpolate", program.create_kernel(kernel));
 }
 
-void run(Launch& launch, const shared::InterpolateParameters& p, const DeviceContext& device) {
+void run(Launch& launch, const shared::InterpolateParameters& p) {
   const std::size_t items = ceil_divide(p.particles, p.particles_of_item);
-  if (device.traits.rows) {
+  if (p.particles_of_item > 1) {
     launch.run_items(items);
   } else {
     launch.run_grid(items, 1, 1);
@@ -71,7 +70,7 @@ void order_second_on_device(DeviceContext& device, const IdMatch& match, int val
   const shared::InterpolateParameters p = parameters_of(device, match, values_per_particle);
   Launch launch = launch_of(device, "order_second");
   launch.value(p).arg(second).arg(place_in_second).arg(appearing).arg(ordered);
-  run(launch, p, device);
+  run(launch, p);
 }
 
 void interpolate_on_device(DeviceContext& device, const ColumnBetween& column,
@@ -91,7 +90,7 @@ void interpolate_on_device(DeviceContext& device, const ColumnBetween& column,
   launch.arg(snapshots.first).arg(snapshots.second);
   if (is_position) launch.arg(snapshots.first_velocity).arg(snapshots.second_velocity);
   launch.arg(snapshots.place_in_second).arg(values);
-  run(launch, p, device);
+  run(launch, p);
 }
 
 }  // namespace splotchcl

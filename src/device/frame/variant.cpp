@@ -28,7 +28,7 @@ std::string defines_of(const Variant& v) {
       {"PROJECTION_FISHEYE", v.projection == Projection::fisheye},
       {"PROJECTION_EQUIRECTANGULAR", v.projection == Projection::equirectangular},
       {"EXTENDED_NUMBERS", v.extended},
-      {"DOUBLE_NUMBERS", v.double_numbers},
+      {"DOUBLE_NUMBERS", v.double_numbers && !v.extended},
       {"FULL_PRECISION", v.full_precision},
       {"FINE_PLACES", v.fine_places},
       {"KERNEL_CUT", v.kernel_cut},
@@ -77,7 +77,7 @@ Variant::Variant(const Frame& frame, const FramePlan& plan, const DeviceTraits& 
       clouds_around(has_clouds_around(frame)),
       stencils(plan.pyramid.has_stencils()),
       background_image(frame.background_image != nullptr) {
-  if (has_rows()) {
+  if (rows) {
     tile_width = is_ordered() || extended ? 32 : 64;
     tile_height = 32;
   }

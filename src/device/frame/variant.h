@@ -20,8 +20,8 @@ struct Variant {
   Projection projection;
   bool rows;            // the shape for processors: eight lanes, and rows of a tile
   bool rows_of_16;      // registers hold sixteen floats
-  bool double_numbers;  // extended numbers are doubles, else pairs of floats
-  bool extended;        // numbers of 45 bits
+  bool double_numbers;  // the device has double precision: sharp splats' places are in it
+  bool extended;        // all of the frame is in double precision
   bool full_precision, fine_places, small_blocks;
   bool kernel_cut, pixel_means;
   bool vector_colors, ellipses, copies, face_of_cube;
@@ -33,9 +33,6 @@ struct Variant {
   std::uint32_t tile_width = 16, tile_height = 16;  // pixels
 
   bool is_ordered() const { return light == LightPlan::ordered; }
-  // Whether a work-item composites rows of a tile, else a group of them its pixels. Pairs of floats
-  // have no rows.
-  bool has_rows() const { return rows && (!extended || double_numbers); }
   std::size_t tile_pixels() const { return std::size_t{tile_width} * tile_height; }
   // Floats per pixel of a grid: sums, or 3 sources and 3 opacities; in extended precision a high
   // and a low part of each.

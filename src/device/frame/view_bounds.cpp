@@ -21,7 +21,7 @@ constexpr double room_around = 1.001;
 }  // namespace
 
 ViewBounds::ViewBounds(const Frame& frame, const DrawnComponent& component,
-                       const shared::ProjectParameters& p)
+                       const shared::ProjectParameters<float>& p)
     : camera_(),
       sigma_per_h_(frame.kernel.width * component.size_factor),
       around_(has_clouds_around(frame) ? room_around * all_splat : 0) {
@@ -40,7 +40,7 @@ void ViewBounds::add(const Vec3& normal, double of_sigma, double constant) {
 
 // may_be_seen() in kernels/project/splat_widths.cl, times the depth: a splat at x pixels from the
 // picture's middle, which are f X / Z, is not looked at where x + reach < left.
-void ViewBounds::add_edges(const Frame& frame, const shared::ProjectParameters& p) {
+void ViewBounds::add_edges(const Frame& frame, const shared::ProjectParameters<float>& p) {
   using namespace boost::qvm;
   const CameraFrame& camera = frame.camera;
   const bool is_perspective = frame.projection != Projection::orthographic;
@@ -67,7 +67,7 @@ void ViewBounds::add_edges(const Frame& frame, const shared::ProjectParameters& 
   edge(-camera.down, number(p.seen_bottom) - number(p.center_y));
 }
 
-void ViewBounds::add_limits(const Frame& frame, const shared::ProjectParameters& p) {
+void ViewBounds::add_limits(const Frame& frame, const shared::ProjectParameters<float>& p) {
   using namespace boost::qvm;
   const double nearest = static_cast<double>(p.near_limit);
   add(frame.camera.forward, 0, 1e-3 * std::abs(nearest) - nearest);

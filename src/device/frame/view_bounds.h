@@ -14,7 +14,7 @@ class ViewBounds {
  public:
   // `p` as the component is projected. Wide angles have no bounds.
   ViewBounds(const Frame& frame, const DrawnComponent& component,
-             const shared::ProjectParameters& p);
+             const shared::ProjectParameters<float>& p);
 
   // Whether none of a block's good particles makes a splat or is around the camera.
   bool leave_out(const shared::BlockBox& box) const;
@@ -26,8 +26,8 @@ class ViewBounds {
     double of_sigma, constant;
   };
   void add(const Vec3& normal, double of_sigma, double constant);
-  void add_edges(const Frame& frame, const shared::ProjectParameters& p);
-  void add_limits(const Frame& frame, const shared::ProjectParameters& p);
+  void add_edges(const Frame& frame, const shared::ProjectParameters<float>& p);
+  void add_limits(const Frame& frame, const shared::ProjectParameters<float>& p);
 
   std::array<double, 3> camera_;  // from the component's origin
   double sigma_per_h_;

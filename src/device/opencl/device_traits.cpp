@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <iterator>
 
-#include "device/opencl/program_text.h"
 #include "kernels/common/group.h"
 
 namespace splotchcl {
 namespace {
 
 void take_sizes_of_rows(DeviceTraits& traits) {
-  traits.project_block = 8192;
+  traits.sorts_in_groups = false;
+  traits.clears_in_pieces = true;
+  traits.draws_slabs = true;
+  traits.project_block = traits.interpolate_block = 8192;
   // Every chunk loads and stores all tiles; lists that are much longer leave the caches, and
   // ordered ones, of more and larger entries per splat, do so sooner.
   traits.chunk_blocks = 128;
@@ -41,7 +43,10 @@ void take_sizes_of_groups(DeviceTraits& traits) {
   const GroupChunks& chunks = *std::find_if(
       std::begin(group_chunks), std::end(group_chunks),
       [&](const GroupChunks& size) { return traits.gpu_memory >= size.least_memory; });
+  traits.sorts_in_groups = true;
+  traits.clears_in_pieces = traits.draws_slabs = false;
   traits.project_block = GROUP_ITEMS;
+  traits.interpolate_block = 1;  // neighbors read neighboring memory
   traits.chunk_blocks = chunks.particles / GROUP_ITEMS;
   traits.leaf_chunks = std::max(1u, particles_of_leaf / chunks.particles);
   traits.sorted_chunk = chunks.splats;
@@ -52,6 +57,14 @@ void take_sizes_of_groups(DeviceTraits& traits) {
 }
 
 }  // namespace
+
+Choices lanes_of(const DeviceTraits& traits) {
+  return lanes_of(traits.rows);
+}
+
+std::string shape_name(const DeviceTraits& traits) {
+  return std::string(traits.rows ? "rows" : "groups") + (traits.rows_of_16 ? " of 16" : "");
+}
 
 DeviceTraits traits_of(const compute::device& device) {
   DeviceTraits traits;

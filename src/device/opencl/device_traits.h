@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "device/opencl/opencl.h"
+#include "device/opencl/program_text.h"
 
 namespace splotchcl {
 
@@ -10,24 +12,35 @@ namespace splotchcl {
 // also by their memory, so that the same device always does the same sums in the same order.
 struct DeviceTraits {
   bool is_gpu = false;
-  bool shares_host_memory = false;   // buffers may lie in the caller's own memory
-  bool large_pages = false;          // working memory is the host's, on large pages (large_pages.h)
-  bool rows = true;                  // the shape: eight lanes, rows; not work-groups
-  bool rows_of_16 = false;           // registers hold sixteen floats
-  bool double_numbers = false;       // extended numbers are double precision, not pairs
-  std::uint64_t largest_buffer = 0;  // bytes
-  std::uint64_t gpu_memory = 0;      // bytes, free or not; 0: no GPU
-  std::uint32_t threads = 1;         // only memory follows from them
-  std::uint32_t project_block = 0;   // particles per work-item of a projection, or per group
-  std::uint32_t chunk_blocks = 0;    // such blocks per chunk of a sum
-  std::uint32_t leaf_chunks = 0;     // such chunks per leaf of a sum (chunks.h)
-  std::uint32_t sorted_chunk = 0;    // splats per chunk where they are sorted
-  std::uint32_t bin_blocks = 0;      // blocks that a chunk's splats are binned in, in order
-  std::uint32_t sort_blocks = 0;     // blocks of the radix sort
-  std::uint32_t segment_length = 0;  // entries of a tile's list per work-item
-  std::uint64_t list_capacity = 0;   // entries of all lists of a band of the picture
+  bool shares_host_memory = false;  // buffers may lie in the caller's own memory
+  bool large_pages = false;         // working memory is the host's, on large pages (large_pages.h)
+  bool rows = true;                 // the shape: eight lanes, rows; not work-groups
+  bool rows_of_16 = false;          // registers hold sixteen floats
+  bool sorts_in_groups = false;     // else by work-items that walk blocks
+  bool clears_in_pieces = false;    // memory, by all threads; else by the driver
+  // A slab is a launch of each stage, too small for a GPU to be busy: it draws as fast in order
+  // (docs/dev/gpu.md).
+  bool draws_slabs = true;
+  bool double_numbers = false;          // cl_khr_fp64
+  std::uint64_t largest_buffer = 0;     // bytes
+  std::uint64_t gpu_memory = 0;         // bytes, free or not; 0: no GPU
+  std::uint32_t threads = 1;            // only memory follows from them
+  std::uint32_t project_block = 0;      // particles per work-item of a projection, or per group
+  std::uint32_t interpolate_block = 0;  // particles per work-item that interpolates columns
+  std::uint32_t chunk_blocks = 0;       // such blocks per chunk of a sum
+  std::uint32_t leaf_chunks = 0;        // such chunks per leaf of a sum (chunks.h)
+  std::uint32_t sorted_chunk = 0;       // splats per chunk where they are sorted
+  std::uint32_t bin_blocks = 0;         // blocks that a chunk's splats are binned in, in order
+  std::uint32_t sort_blocks = 0;        // blocks of the radix sort
+  std::uint32_t segment_length = 0;     // entries of a tile's list per work-item
+  std::uint64_t list_capacity = 0;      // entries of all lists of a band of the picture
   std::uint32_t chunk_length() const { return project_block * chunk_blocks; }
 };
+
+// Of programs that do not depend on the frame.
+Choices lanes_of(const DeviceTraits& traits);
+// What tells the shapes apart, for people.
+std::string shape_name(const DeviceTraits& traits);
 
 // With the shape that suits the device.
 DeviceTraits traits_of(const compute::device& device);

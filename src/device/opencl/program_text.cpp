@@ -15,8 +15,6 @@ constexpr char with_prefetch[] = "-DHAS_PREFETCH";
 constexpr char with_ballot[] = "-DHAS_BALLOT";
 // PoCL compiles a kernel three times, and what it calls once (common.cl).
 constexpr char with_bodies[] = "-DCALLS_BODIES";
-// What compilers for processors cannot inline (wide_angle_extended.cl).
-constexpr char with_calls[] = "-DCALLS_TURN";
 
 std::string include_of(const std::string& file) {
   return "#include \"" + file + "\"\n";
@@ -28,8 +26,7 @@ std::string joined(const std::string& a, const std::string& b) {
 
 std::string extras_of(const compute::device& device) {
   if (is_nvidia(device)) return with_ballot;
-  if (is_pocl_processor(device)) return joined(joined(with_prefetch, with_bodies), with_calls);
-  return (device.type() & CL_DEVICE_TYPE_CPU) != 0 ? with_calls : "";
+  return is_pocl_processor(device) ? joined(with_prefetch, with_bodies) : "";
 }
 
 }  // namespace

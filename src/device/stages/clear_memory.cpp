@@ -35,7 +35,7 @@ void clear_together(DeviceContext& device, const char* stage, const compute::buf
 
 void clear_memory(DeviceContext& device, const char* stage, const compute::buffer& memory,
                   std::uint64_t first, std::uint64_t bytes) {
-  if (device.traits.rows && bytes >= least_shared_bytes) {
+  if (device.traits.clears_in_pieces && bytes >= least_shared_bytes) {
     clear_together(device, stage, memory, first, bytes);
     return;
   }

@@ -126,7 +126,7 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
       .arg(kernels.clouds->directions)
       .arg(kernels.clouds->cones)
       .arg(context_.stencils);
-  if (variant.has_rows()) {
+  if (variant.rows) {
     launch.run_pieces(count);
   } else {
     launch.run_groups(count, variant.extended ? tile_pixels / 8 : tile_pixels);
@@ -155,7 +155,7 @@ void Compositor::join(const Part& part, const Kernels& kernels, const TileLists&
       .arg(partials);
   if (extended) {
     launch.run_groups(count, variant.tile_pixels() / 8);
-  } else if (!variant.has_rows()) {
+  } else if (!variant.rows) {
     launch.run_groups(count, variant.tile_pixels());
   } else {
     launch.run_rows(variant.tile_height, count);

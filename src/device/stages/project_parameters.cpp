@@ -5,32 +5,46 @@
 #include <limits>
 
 #include "device/frame/column_arguments.h"
-#include "device/frame/float_pair.h"
 #include "device/frame/key_windows.h"
 #include "device/stages/field_scaling.h"
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
 #include "scene/peak_color.h"
+#include "scene/plan/splat_limits.h"
 #include "scene/projection.h"
 #include "surroundings/cloud_around.h"
 
 namespace splotchcl {
 namespace {
 
-shared::FieldScaling rounded(const KernelScaling& exact) {
-  shared::FieldScaling scaling{};
-  scaling.scaling = exact.scaling;
-  scaling.minimum = static_cast<float>(exact.minimum);
-  scaling.minimum_low = static_cast<float>(exact.minimum - static_cast<double>(scaling.minimum));
-  scaling.factor = static_cast<float>(exact.factor);
-  scaling.inverse_range = static_cast<float>(exact.inverse_range);
-  return scaling;
+template <typename Real>
+void split_in_two(double value, Real& high, Real& low) {
+  // Volatile, as in float_pair.h.
+  const volatile Real nearest = static_cast<Real>(value);
+  high = nearest;
+  low = std::isfinite(high) ? static_cast<Real>(value - static_cast<double>(high)) : 0;
 }
 
-void copy(const Vec3& from, float (&to)[3]) {
+template <typename Real>
+void split_in_two(const Vec3& from, Real (&high)[3], Real (&low)[3]) {
   for (int axis = 0; axis < 3; ++axis)
-    to[axis] = static_cast<float>(from.a[axis]);
+    split_in_two(from.a[axis], high[axis], low[axis]);
+}
+
+template <typename Scaling>
+void set_scaling(const KernelScaling& exact, Scaling& scaling) {
+  using Real = decltype(scaling.factor);
+  scaling.scaling = exact.scaling;
+  split_in_two(exact.minimum, scaling.minimum, scaling.minimum_low);
+  scaling.factor = static_cast<Real>(exact.factor);
+  scaling.inverse_range = static_cast<Real>(exact.inverse_range);
+}
+
+template <typename Real>
+void copy(const Vec3& from, Real (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis)
+    to[axis] = static_cast<Real>(from.a[axis]);
 }
 
 // A float is at or above the limit exactly when it is at or above this one.
@@ -41,51 +55,46 @@ float smallest_float_from(double limit) {
              : nearest;
 }
 
-void split_in_two(const Vec3& from, float (&high)[3], float (&low)[3]) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const shared::FloatPair pair = pair_of(from.a[axis]);
-    high[axis] = pair.high;
-    low[axis] = pair.low;
-  }
-}
-
-void set_camera(const Frame& frame, const Vec3& origin, shared::ProjectParameters& p) {
+template <typename Real>
+void set_camera(const Frame& frame, const Vec3& origin, shared::ProjectParameters<Real>& p) {
   const CameraFrame& camera = frame.camera;
   using namespace boost::qvm;
   const Vec3 look_at = camera.position + camera.forward * camera.look_at_distance;
   split_in_two(camera.position - origin, p.position_high, p.position_low);
   split_in_two(look_at - origin, p.look_at_high, p.look_at_low);
   copy(camera.forward, p.forward);
-  p.far_away = static_cast<float>(0.5 * camera.look_at_distance);
+  p.far_away = static_cast<Real>(0.5 * camera.look_at_distance);
   copy(camera.right, p.right);
   copy(camera.down, p.down);
   p.perspective = frame.projection != Projection::orthographic;
   p.pixels_per_length =
-      static_cast<float>(p.perspective ? camera.focal_pixels : camera.pixels_per_length);
-  p.eye_offset = static_cast<float>(camera.eye_offset);
+      static_cast<Real>(p.perspective ? camera.focal_pixels : camera.pixels_per_length);
+  p.eye_offset = static_cast<Real>(camera.eye_offset);
   copy(turn_axis_in_view(camera), p.turn_axis);
 }
 
-void set_depth_limits(const Frame& frame, shared::ProjectParameters& p) {
+template <typename Real>
+void set_depth_limits(const Frame& frame, shared::ProjectParameters<Real>& p) {
   // Depth keys decide about depths that are close to these limits (view.cl).
-  const float lowest = p.perspective ? std::numeric_limits<float>::min() : 0.0f;
+  const Real lowest = p.perspective ? std::numeric_limits<float>::min() : 0;
   p.near_limit = lowest;
   p.near_factor = 0;
   if (frame.near_limit) {
     p.near_limit = smallest_float_from(*frame.near_limit);
-    if (p.perspective) p.near_limit = std::max(p.near_limit, lowest);
+    if (p.perspective) p.near_limit = std::max<Real>(p.near_limit, lowest);
   } else if (p.perspective) {
-    p.near_factor = static_cast<float>(near_smoothing_lengths);
+    p.near_factor = static_cast<Real>(near_smoothing_lengths);
   }
   p.far_limit = frame.far_limit ? -smallest_float_from(-*frame.far_limit)
                                 : std::numeric_limits<float>::infinity();
 }
 
-void set_fade(const Frame& frame, shared::ProjectParameters& p) {
-  p.fade_begin = static_cast<float>(frame.near_limit.value_or(0));
-  p.fade_end = static_cast<float>(frame.far_limit.value_or(0));
-  p.inverse_near_fade = static_cast<float>(part_per_length(frame.fade.near_length));
-  p.inverse_far_fade = static_cast<float>(part_per_length(frame.fade.far_length));
+template <typename Real>
+void set_fade(const Frame& frame, shared::ProjectParameters<Real>& p) {
+  p.fade_begin = static_cast<Real>(frame.near_limit.value_or(0));
+  p.fade_end = static_cast<Real>(frame.far_limit.value_or(0));
+  p.inverse_near_fade = static_cast<Real>(part_per_length(frame.fade.near_length));
+  p.inverse_far_fade = static_cast<Real>(part_per_length(frame.fade.far_length));
 }
 
 shared::DepthKeyParameters parameters_of(const DepthKeyScale& scale) {
@@ -104,8 +113,9 @@ shared::DepthKeyParameters parameters_of(const DepthKeyScale& scale) {
   return p;
 }
 
+template <typename Real>
 void set_depth_key(const Frame& frame, const DrawnComponent& component,
-                   shared::ProjectParameters& p) {
+                   shared::ProjectParameters<Real>& p) {
   const DepthKeyScale scale = make_depth_key_scale(frame, component);
   p.depth_key = parameters_of(scale);
   const double least = std::ldexp(static_cast<double>(least_perspective_depth), scale.unit);
@@ -116,10 +126,11 @@ void set_depth_key(const Frame& frame, const DrawnComponent& component,
   for (int axis = 0; axis < 3; ++axis) {
     from_origin += std::abs(frame.camera.position.a[axis] - component.particles.origin.a[axis]);
   }
-  p.depth_rounding = static_cast<float>(std::ldexp(from_origin, -46) + 2 * least);
+  p.depth_rounding = static_cast<Real>(std::ldexp(from_origin, -46) + 2 * least);
 }
 
-void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
+template <typename Real>
+void set_plan(const FramePlan& plan, shared::ProjectParameters<Real>& p) {
   const SplatLimits& limits = plan.splats;
   p.widening = limits.widening;
   p.mean_sigma = limits.mean_sigma;
@@ -145,16 +156,18 @@ void set_plan(const FramePlan& plan, shared::ProjectParameters& p) {
   p.blurs = grid_blurs(pyramid);
 }
 
-void set_rectangle(const Rectangle& part, const shared::Grid& grid, float& left, float& right_end,
-                   float& top, float& bottom) {
-  left = static_cast<float>(part.x - grid.middle_x);
-  right_end = static_cast<float>(part.x + part.width - grid.middle_x);
-  top = static_cast<float>(part.y - grid.middle_y);
-  bottom = static_cast<float>(part.y + part.height - grid.middle_y);
+template <typename Real>
+void set_rectangle(const Rectangle& part, const shared::Grid& grid, Real& left, Real& right_end,
+                   Real& top, Real& bottom) {
+  left = static_cast<Real>(part.x - grid.middle_x);
+  right_end = static_cast<Real>(part.x + part.width - grid.middle_x);
+  top = static_cast<Real>(part.y - grid.middle_y);
+  bottom = static_cast<Real>(part.y + part.height - grid.middle_y);
 }
 
 // Where places count from, and what of the picture is drawn.
-void set_picture(const StageContext& context, shared::ProjectParameters& p) {
+template <typename Real>
+void set_picture(const StageContext& context, shared::ProjectParameters<Real>& p) {
   const Frame& frame = context.frame;
   const FramePlan& plan = context.plan;
   const shared::Grid& grid = context.layout.grids.front();
@@ -165,8 +178,8 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   p.guard = plan.pyramid.grids.back().guard;
   p.tile_count = context.layout.tile_count;
   p.has_parts = context.layout.has_parts();
-  p.center_x = static_cast<float>(frame.camera.center_x - grid.middle_x);
-  p.center_y = static_cast<float>(frame.camera.center_y - grid.middle_y);
+  p.center_x = static_cast<Real>(frame.camera.center_x - grid.middle_x);
+  p.center_y = static_cast<Real>(frame.camera.center_y - grid.middle_y);
 
   const Rectangle whole = {0, 0, frame.width, frame.height};
   const auto tile_width = static_cast<int>(context.variant.tile_width);
@@ -182,7 +195,7 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   const bool is_whole = frame.crop.width == frame.width && frame.crop.height == frame.height;
   // Of a crop a grid's tiles may begin a tile beside what is wanted of it.
   const int tile = is_whole ? 0 : std::max(tile_width, tile_height);
-  p.beside = static_cast<float>(plan.pyramid.grids.back().guard + 1 + tile);
+  p.beside = static_cast<Real>(plan.pyramid.grids.back().guard + 1 + tile);
   // There a splat has fallen to 2e-9 of its peak. In order slabs of fewer splats are thicker ones,
   // which takes longer than the splats that this leaves out (docs/dev/tuning.md, "Slabs").
   constexpr float faded = 4.5f;
@@ -192,12 +205,12 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   p.reach = 7 + 1.1f * p.beside / plan.pyramid.coarse_sigma;
 
   if (plan.is_face_of_cube && frame.kernel.sampling == Sampling::mean) {
-    p.footprint = static_cast<float>(face_footprint);
-    p.narrowest_squared = static_cast<float>(narrowest_on_face_squared);
+    p.footprint = static_cast<Real>(face_footprint);
+    p.narrowest_squared = static_cast<Real>(narrowest_on_face_squared);
   }
 
   const double period = period_along_x(frame.camera, frame.projection);
-  p.period = static_cast<float>(period);
+  p.period = static_cast<Real>(period);
   const auto in_units = [&](double pixels) {
     return wide(static_cast<std::int64_t>(std::llround(std::ldexp(pixels, grid.place_bits))));
   };
@@ -205,7 +218,7 @@ void set_picture(const StageContext& context, shared::ProjectParameters& p) {
   for (int pole = 0; pole < 2; ++pole) {
     const double twice =
         2 * (frame.camera.center_y - grid.middle_y) + (pole == 0 ? -0.5 : 0.5) * period;
-    p.twice_pole[pole] = static_cast<float>(twice);
+    p.twice_pole[pole] = static_cast<Real>(twice);
     p.twice_pole_units[pole] = in_units(twice);
   }
 }
@@ -229,41 +242,43 @@ double counted_part(const DrawnComponent& component, double light_behind) {
   return std::max(peak_emission(component), light_behind * peak_absorption(component)) / peak;
 }
 
+template <typename Real>
 void set_component(const Frame& frame, const DrawnComponent& component, double light_behind,
-                   shared::ProjectParameters& p) {
+                   shared::ProjectParameters<Real>& p) {
   const double length_scale = splotchcl::length_scale(frame);
   const bool is_gray = component.absorption.kind == Absorption::Kind::gray;
-  p.size_factor = static_cast<float>(component.size_factor);
-  p.length_scale = static_cast<float>(length_scale);
+  p.size_factor = static_cast<Real>(component.size_factor);
+  p.length_scale = static_cast<Real>(length_scale);
   p.weight_model = weight_model_number(component.weight);
-  p.weight_scale = static_cast<float>(weight_scale(component, length_scale));
-  p.peak_color = static_cast<float>(peak_color(component));
-  p.peak_own = static_cast<float>(peak_own_absorption(component));
+  p.weight_scale = static_cast<Real>(weight_scale(component, length_scale));
+  p.peak_color = static_cast<Real>(peak_color(component));
+  p.peak_own = static_cast<Real>(peak_own_absorption(component));
   p.counted_part =
-      static_cast<float>(is_gray ? light_behind : counted_part(component, light_behind));
+      static_cast<Real>(is_gray ? light_behind : counted_part(component, light_behind));
   p.around_reach =
-      static_cast<float>(all_splat * frame.kernel.width * component.size_factor * length_scale);
-  p.gray_absorption = is_gray ? static_cast<float>(component.absorption.factor) : 0.0f;
-  p.color = rounded(color_scaling(component));
-  p.intensity = rounded(intensity_scaling(component));
+      static_cast<Real>(all_splat * frame.kernel.width * component.size_factor * length_scale);
+  p.gray_absorption = is_gray ? static_cast<Real>(component.absorption.factor) : 0;
+  p.brightness = static_cast<Real>(component.brightness);
+  p.absorption_factor = static_cast<Real>(component.absorption.factor);
+  set_scaling(color_scaling(component), p.color);
+  set_scaling(intensity_scaling(component), p.intensity);
 }
 
-}  // namespace
-
-shared::ProjectParameters make_project_parameters(const StageContext& context,
-                                                  std::uint32_t component) {
+template <typename Real>
+shared::ProjectParameters<Real> parameters_of_component(const StageContext& context,
+                                                        std::uint32_t component) {
   const Frame& frame = context.frame;
-  shared::ProjectParameters p{};
+  shared::ProjectParameters<Real> p{};
   set_camera(frame, frame.components[component].particles.origin, p);
   set_depth_limits(frame, p);
   set_depth_key(frame, frame.components[component], p);
-  p.kernel_width = static_cast<float>(frame.kernel.width);
-  p.sigma_per_h = static_cast<float>(frame.kernel.width * frame.components[component].size_factor);
-  p.kernel_cut = static_cast<float>(frame.kernel.cut.value_or(0));
-  p.min_radius = static_cast<float>(frame.kernel.min_radius_pixels);
-  p.footprint_sigma = static_cast<float>(footprint_sigma(frame.kernel));
-  p.lens_sigma = static_cast<float>(sigma_per_scale(frame.lens));
-  p.scale_in_focus = static_cast<float>(scale_in_focus(frame));
+  p.kernel_width = static_cast<Real>(frame.kernel.width);
+  p.sigma_per_h = static_cast<Real>(frame.kernel.width * frame.components[component].size_factor);
+  p.kernel_cut = static_cast<Real>(frame.kernel.cut.value_or(0));
+  p.min_radius = static_cast<Real>(frame.kernel.min_radius_pixels);
+  p.footprint_sigma = static_cast<Real>(footprint_sigma(frame.kernel));
+  p.lens_sigma = static_cast<Real>(sigma_per_scale(frame.lens));
+  p.scale_in_focus = static_cast<Real>(scale_in_focus(frame));
   set_fade(frame, p);
   set_picture(context, p);
   set_plan(context.plan, p);
@@ -272,24 +287,57 @@ shared::ProjectParameters make_project_parameters(const StageContext& context,
   p.component = component;
   p.sort_by_field = frame.sort.by == SortOrder::By::field;
   p.sort_descending = frame.sort.descending;
-  p.window_end = wide(end_of_keys);
+  p.launch.window_end = wide(end_of_keys);
   return p;
 }
 
-shared::ProjectParameters make_project_parameters(const StageContext& context,
-                                                  const ParticleChunk& chunk,
-                                                  const ParticleBuffers& particles) {
-  shared::ProjectParameters p = make_project_parameters(context, chunk.component);
-  p.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
-  p.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
-  p.block_particles = context.device.traits.project_block;
-  set_strides(particles, p);
+// Of extended precision. Splats are as wide as they are and end where all of them together leave
+// out no more than the truncation's share; means of all are taken, if means are.
+shared::ProjectParameters<double> extended_parameters(const StageContext& context,
+                                                      std::uint32_t component) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  auto p = parameters_of_component<double>(context, component);
+  p.widening = p.least_extent = p.restored_light = p.gray_absorption = 0;
+  p.mean_sigma = takes_pixel_means(context.frame) ? infinity : 0;
+  p.bright_peak = infinity;
+  p.counted_part = 1;
+  const auto particles =
+      static_cast<double>(std::max<std::uint64_t>(1, particle_count(context.frame)));
+  p.inverse_edge = particles * context.plan.splats_per_particle / context.plan.shares.truncation;
+  // Beyond the truncation of any amplitude that single precision holds.
+  p.reach = 10;
   return p;
 }
 
-std::uint32_t block_count(const shared::ProjectParameters& parameters) {
-  return ceil_divide(parameters.end_particle - parameters.first_particle,
-                     parameters.block_particles);
+}  // namespace
+
+shared::ProjectParameters<float> make_project_parameters(const StageContext& context,
+                                                         std::uint32_t component) {
+  return parameters_of_component<float>(context, component);
+}
+
+shared::ProjectParameters<float> make_project_parameters(const StageContext& context,
+                                                         const ParticleChunk& chunk,
+                                                         const ParticleBuffers& particles) {
+  auto p = make_project_parameters(context, chunk.component);
+  p.launch.first_particle = static_cast<std::uint32_t>(chunk.first - particles.first);
+  p.launch.end_particle = static_cast<std::uint32_t>(chunk.end - particles.first);
+  p.launch.block_particles = context.device.traits.project_block;
+  set_strides(particles, p.launch);
+  return p;
+}
+
+Launch& pass_parameters(Launch& launch, const StageContext& context,
+                        const shared::ProjectParameters<float>& parameters) {
+  if (!context.variant.extended) return launch.value(parameters);
+  auto extended = extended_parameters(context, parameters.component);
+  extended.launch = parameters.launch;
+  return launch.value(extended);
+}
+
+std::uint32_t block_count(const shared::ProjectParameters<float>& parameters) {
+  return ceil_divide(parameters.launch.end_particle - parameters.launch.first_particle,
+                     parameters.launch.block_particles);
 }
 
 ParticleBuffers particles_in_view(const StageContext& context, ParticleStore& particles,

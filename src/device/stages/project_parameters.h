@@ -5,20 +5,25 @@
 #include "device/frame/chunks.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/stage_context.h"
+#include "device/opencl/launch.h"
 
 namespace splotchcl {
 
 // Constants of the projection of one of the frame's components (kernels/project/project.h),
 // without the particles of a launch and the strides of their columns.
-shared::ProjectParameters make_project_parameters(const StageContext& context,
-                                                  std::uint32_t component);
+shared::ProjectParameters<float> make_project_parameters(const StageContext& context,
+                                                         std::uint32_t component);
 // The same with a chunk of its particles, which lies in `particles`.
-shared::ProjectParameters make_project_parameters(const StageContext& context,
-                                                  const ParticleChunk& chunk,
-                                                  const ParticleBuffers& particles);
+shared::ProjectParameters<float> make_project_parameters(const StageContext& context,
+                                                         const ParticleChunk& chunk,
+                                                         const ParticleBuffers& particles);
+
+// Hands a launch the parameters as its program takes them: in extended precision as doubles.
+Launch& pass_parameters(Launch& launch, const StageContext& context,
+                        const shared::ProjectParameters<float>& parameters);
 
 // Blocks of the particles of a launch.
-std::uint32_t block_count(const shared::ProjectParameters& parameters);
+std::uint32_t block_count(const shared::ProjectParameters<float>& parameters);
 
 // The buffers that a chunk lies in, without the values of blocks that are known to be out of view
 // where these are made as they are wanted.

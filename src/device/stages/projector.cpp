@@ -10,8 +10,8 @@
 #include "device/frame/records.h"
 #include "device/frame/shared.h"
 #include "device/frame/view_bounds.h"
-#include "device/stages/extended_parameters.h"
 #include "device/stages/project_parameters.h"
+#include "device/stages/sharp_parameters.h"
 #include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "splotchcl/error.h"
@@ -76,9 +76,9 @@ std::uint32_t count_left_out(const std::vector<std::uint32_t>& blocks) {
       std::count_if(blocks.begin(), blocks.end(), [](std::uint32_t block) { return block != 0; }));
 }
 
-void take_window(const KeyWindow& window, shared::ProjectParameters& parameters) {
-  parameters.window_first = wide(window.first);
-  parameters.window_end = wide(window.end);
+void take_window(const KeyWindow& window, shared::ProjectParameters<float>& parameters) {
+  parameters.launch.window_first = wide(window.first);
+  parameters.launch.window_end = wide(window.end);
 }
 
 // A group has an item for each particle of a block, and boxes around blocks are made beforehand.
@@ -112,7 +112,7 @@ struct Projector::Targets {
 
 // Of a launch for each component.
 struct Projector::AllParticles {
-  std::vector<shared::ProjectParameters> components;
+  std::vector<shared::ProjectParameters<float>> components;
   std::vector<std::vector<std::uint32_t>> left_out;
   std::uint32_t blocks = 0, blocks_left_out = 0;
 };
@@ -150,13 +150,13 @@ SplatMemory Projector::splat_memory(std::uint64_t splats, Filling filling) const
   return memory;
 }
 
-std::vector<std::uint32_t> Projector::left_out_blocks(const shared::ProjectParameters& parameters,
-                                                      const ParticleBuffers& particles) const {
+std::vector<std::uint32_t> Projector::left_out_blocks(
+    const shared::ProjectParameters<float>& parameters, const ParticleBuffers& particles) const {
   if (particles.boxes == nullptr) return {};
   const DrawnComponent& component = context_.frame.components[parameters.component];
   const ViewBounds bounds(context_.frame, component, parameters);
-  const auto first = static_cast<std::size_t>((particles.first + parameters.first_particle) /
-                                              parameters.block_particles);
+  const auto first = static_cast<std::size_t>((particles.first + parameters.launch.first_particle) /
+                                              parameters.launch.block_particles);
   std::vector<std::uint32_t> blocks(block_count(parameters));
   // Of a GPU's small blocks there are very many.
   constexpr std::size_t blocks_of_thread = 4096;
@@ -169,16 +169,16 @@ std::vector<std::uint32_t> Projector::left_out_blocks(const shared::ProjectParam
   return count_left_out(blocks) > 0 ? blocks : std::vector<std::uint32_t>();
 }
 
-void Projector::launch(ProjectOutput output, shared::ProjectParameters parameters,
+void Projector::launch(ProjectOutput output, shared::ProjectParameters<float> parameters,
                        const ParticleBuffers& particles, const std::vector<std::uint32_t>& left_out,
                        const Targets& targets) const {
   DeviceContext& device = context_.device;
-  parameters.leaves_out_blocks = !left_out.empty();
+  parameters.launch.leaves_out_blocks = !left_out.empty();
   const Buffer<std::uint32_t> left_out_buffer = device.pool.upload(left_out, "blocks out of view");
   const Program program = device.programs.get(project_program(context_.variant, output));
   Launch launch(device, "project", program.create_kernel("project"));
-  const DrawnComponent& component = context_.frame.components[parameters.component];
-  launch.value(parameters).value(make_extended_parameters(context_, component));
+  pass_parameters(launch, context_, parameters)
+      .value(make_sharp_parameters(context_, context_.frame.components[parameters.component]));
   pass_columns(launch, particles)
       .arg(targets.offsets)
       .arg(targets.counts)
@@ -210,13 +210,15 @@ void Projector::run_by_blocks(Launch& launch, std::size_t blocks) const {
   launch.run_groups(blocks, has_rows() ? 1 : GROUP_ITEMS);
 }
 
-std::uint32_t Projector::stride_of(const shared::ProjectParameters& parameters) const {
-  return parameters.block_particles * static_cast<std::uint32_t>(context_.plan.splats_per_particle);
+std::uint32_t Projector::stride_of(const shared::ProjectParameters<float>& parameters) const {
+  return parameters.launch.block_particles *
+         static_cast<std::uint32_t>(context_.plan.splats_per_particle);
 }
 
 SplatBlocks Projector::project(const ParticleChunk& chunk, const ParticleBuffers& particles) const {
   BufferPool& pool = context_.device.pool;
-  const shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
+  const shared::ProjectParameters<float> parameters =
+      make_project_parameters(context_, chunk, particles);
   SplatBlocks blocks;
   blocks.stride = stride_of(parameters);
   blocks.block_count = block_count(parameters);
@@ -276,7 +278,7 @@ Projector::AllParticles Projector::all_of(const std::vector<ParticleBuffers>& pa
   for (std::uint32_t c = 0; c < context_.frame.components.size(); ++c) {
     const std::size_t count = context_.frame.components[c].particles.count;
     all.components.push_back(make_project_parameters(context_, {c, 0, count}, particles[c]));
-    all.components.back().first_block = all.blocks;
+    all.components.back().launch.first_block = all.blocks;
     all.blocks += block_count(all.components.back());
     all.left_out.push_back(left_out_blocks(all.components.back(), particles[c]));
     all.blocks_left_out += count_left_out(all.left_out.back());
@@ -290,7 +292,7 @@ std::vector<ChunkBlocks> Projector::chunks_around(
   const DeviceTraits& traits = context_.device.traits;
   std::vector<ChunkBlocks> around;
   for (ChunkBlocks& chunk : all_blocks(particle_chunks(context_.frame, traits), traits)) {
-    const std::uint64_t first = all.components[chunk.chunk.component].first_block +
+    const std::uint64_t first = all.components[chunk.chunk.component].launch.first_block +
                                 chunk.chunk.first / traits.project_block;
     chunk.blocks = blocks_around(found.data() + first, chunk.blocks.size());
     if (!chunk.blocks.empty()) around.push_back(std::move(chunk));
@@ -370,9 +372,9 @@ ChunkKeys Projector::count_keys(const ParticleChunk& chunk, const ParticleBuffer
                                 const KeyWindow& window, int shift,
                                 const Buffer<std::uint32_t>& key_counts) const {
   BufferPool& pool = context_.device.pool;
-  shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
+  shared::ProjectParameters<float> parameters = make_project_parameters(context_, chunk, particles);
   take_window(window, parameters);
-  parameters.bin_shift = shift;
+  parameters.launch.bin_shift = shift;
   const std::uint32_t blocks = block_count(parameters);
   const auto counts = pool.get<shared::BlockCounts>(blocks, "block counts");
   const auto offsets = pool.upload(std::vector<std::uint32_t>(blocks + 1), "block offsets");
@@ -393,7 +395,7 @@ std::uint32_t Projector::project_window(const ParticleChunk& chunk,
                                         const std::vector<std::uint32_t>& without,
                                         const KeyedSplats& keyed, std::uint32_t first_slot) const {
   BufferPool& pool = context_.device.pool;
-  shared::ProjectParameters parameters = make_project_parameters(context_, chunk, particles);
+  shared::ProjectParameters<float> parameters = make_project_parameters(context_, chunk, particles);
   take_window(window, parameters);
   const std::uint32_t blocks = block_count(parameters), stride = stride_of(parameters);
   const auto counts = pool.get<shared::BlockCounts>(blocks, "block counts");

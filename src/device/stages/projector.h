@@ -70,16 +70,16 @@ class Projector {
   std::vector<ChunkBlocks> chunks_around(const AllParticles& all,
                                          const std::vector<shared::BlockCounts>& found) const;
   Buffer<std::uint16_t> key_ends(std::uint32_t slots, Filling filling = Filling::whole) const;
-  std::uint32_t stride_of(const shared::ProjectParameters& parameters) const;
+  std::uint32_t stride_of(const shared::ProjectParameters<float>& parameters) const;
   SplatMemory splat_memory(std::uint64_t splats, Filling filling = Filling::whole) const;
   void run_by_blocks(Launch& launch, std::size_t blocks) const;
   // Of any order and lists: the same in every frame of the plan.
   Buffer<shared::WidthNeeds> upload_needs() const;
   // Per block of the launch: 0, or out of view and how many of it are bad, and 1; or nothing, where
   // all are projected.
-  std::vector<std::uint32_t> left_out_blocks(const shared::ProjectParameters& parameters,
+  std::vector<std::uint32_t> left_out_blocks(const shared::ProjectParameters<float>& parameters,
                                              const ParticleBuffers& particles) const;
-  void launch(ProjectOutput output, shared::ProjectParameters parameters,
+  void launch(ProjectOutput output, shared::ProjectParameters<float> parameters,
               const ParticleBuffers& particles, const std::vector<std::uint32_t>& left_out,
               const Targets& targets) const;
 

@@ -33,11 +33,10 @@ shared::SortParameters make_parameters(std::uint32_t count, std::uint32_t wanted
 
 Sorter::Sorter(DeviceContext& device, bool is_used) : device_(device) {
   if (!is_used) return;
-  if (device.traits.rows)
-    device.programs.get(
-        program_source("kernels/sort/sort.cl"));  // asked for, with those of other stages
-  else
+  if (device.traits.sorts_in_groups)
     groups_.emplace(device);
+  else  // asked for, with those of other stages
+    device.programs.get(program_source("kernels/sort/sort.cl"));
 }
 
 Sorter::Pairs Sorter::sort_pairs(Pairs pairs, std::uint32_t count) const {

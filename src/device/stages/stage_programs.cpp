@@ -11,13 +11,18 @@ Choices choices_of(ProjectOutput output, bool counts_tiles) {
           flag("COUNT_TILES", counts_tiles)};
 }
 
+// Of one particle at a time.
+std::string double_values(const Variant& variant) {
+  return flag("DOUBLE_VALUES", variant.extended);
+}
+
 Choices composite_choices(const Variant& variant, bool has_clouds) {
   return {flag("ROWS_OF_16", variant.takes_rows_of_16()), flag("CLOUDS_IN_LISTS", has_clouds)};
 }
 
 // By rows of a tile, or a pixel for each item of a group.
 std::string composite_file(const Variant& variant) {
-  const std::string shape = variant.has_rows() ? "rows.cl" : "groups.cl";
+  const std::string shape = variant.rows ? "rows.cl" : "groups.cl";
   return (variant.extended ? "kernels/composite/composite_extended_"
                            : "kernels/composite/composite_") +
          shape;
@@ -35,8 +40,8 @@ ProgramSource program_of_layers(const Variant& variant, const std::string& file,
 
 ProgramSource project_program(const Variant& variant, ProjectOutput output) {
   Choices choices = choices_of(output, variant.rows && output == ProjectOutput::splats);
+  choices.push_back(double_values(variant));
   if (!variant.rows) return program_source(variant, "kernels/project/project_groups.cl", choices);
-  // Extended numbers are of one particle at a time.
   if (variant.rows_of_16 && !variant.extended) choices.emplace_back("LANES_16");
   return program_source(variant, "kernels/project/project.cl", choices);
 }
@@ -86,7 +91,7 @@ ProgramSource deepest_program(const Variant& variant) {
 }
 
 ProgramSource list_around_program(const Variant& variant) {
-  return program_source(variant, "kernels/project/list_around.cl");
+  return program_source(variant, "kernels/project/list_around.cl", {double_values(variant)});
 }
 
 ProgramSource behind_program(const Variant& variant) {

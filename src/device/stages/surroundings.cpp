@@ -108,14 +108,14 @@ std::vector<Surroundings::Found> Surroundings::list(const ChunkBlocks& blocks,
                                                     std::uint64_t most) const {
   DeviceContext& device = context_.device;
   const ParticleChunk& chunk = blocks.chunk;
-  const shared::ProjectParameters p = make_project_parameters(context_, chunk, particles);
+  const shared::ProjectParameters<float> p = make_project_parameters(context_, chunk, particles);
   const auto capacity = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, chunk.count()));
   const auto listed = device.pool.get<std::uint32_t>(3 * (std::uint64_t{capacity} + 1), "around");
   clear_memory(device, "surroundings", listed.memory(), 0, sizeof(std::uint32_t));
   const Program program = device.programs.get(list_around_program(context_.variant));
   Launch launch(device, "surroundings", program.create_kernel("list_around"));
   const Buffer<std::uint32_t> looked_through = device.pool.upload(blocks.blocks, "blocks around");
-  pass_columns(launch.value(p), particles)
+  pass_columns(pass_parameters(launch, context_, p), particles)
       .arg(looked_through)
       .arg(listed)
       .value(static_cast<cl_uint>(capacity));
