@@ -317,7 +317,9 @@ void add_generate(CLI::App& app, Run& run, Console& console) {
                           "spiral galaxy with satellites in hot gas"))
       ->required()
       ->check(CLI::IsMember({"universe", "cluster", "halo"}));
-  sub->add_option("-o,--output", options->output, wrapped("The snapshot, Gadget format 2"))
+  sub->add_option("-o,--output", options->output,
+                  wrapped("The snapshot, Gadget format 2; of a universe of more than 30 million "
+                          "particles in files FILE.0, FILE.1, ..."))
       ->required()
       ->type_name("FILE");
   sub->add_option("--particles", options->settings.particles,
