@@ -56,6 +56,16 @@ TEST_P(EveryKernel, HoldsItsToleranceWithoutDoublePrecisionOrSaysThatItNeedsIt) 
               testing::ThrowsMessage<DeviceError>(testing::HasSubstr("no double precision")));
 }
 
+TEST_P(EveryKernel, NeedsDoublePrecisionForSharpSplatsInWideAngles) {
+  Renderer without({"", GetParam(), false});
+  Frame frame = wide_frame(Projection::fisheye);
+  frame.tolerance = 1e-4;
+  const std::vector<Cloud> sharp = {{0.3, 0.1, 1, 1e-5, 1e-5}};
+  frame.components.front() = component_of(sharp, two_colors());
+  EXPECT_THROW(without.render(frame), DeviceError);
+  expect_within_tolerance(frame, "sharp");
+}
+
 // Clouds so dim that the wide ones are added up in slabs and laid among the narrow ones.
 TEST_P(EveryKernel, LaysSlabs) {
   Frame frame = small_frame(LightPlan::ordered);
