@@ -1,7 +1,6 @@
 // The reader of docs/dev/add-a-reader.md.
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_format.h"
-#include "temporary_folder.h"
 
 namespace splotchcl {
 

@@ -2,7 +2,6 @@
 #include "formats/halo_catalog.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/snapshot_checks.h"
-#include "temporary_folder.h"
 
 namespace splotchcl::test {
 namespace {

@@ -4,7 +4,6 @@
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_writer.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
 
 namespace splotchcl::test {
 namespace {
@@ -113,7 +112,7 @@ TEST_P(MultiFile, HighWordsThatTheFilesOwnCountsContradictAreIgnoredWithANote) {
     for (const std::size_t named : {0U, 1U}) {
       const auto joined = open_snapshot(member(named));
       expect_same_columns(*joined, *open_whole());
-      EXPECT_THAT(joined->info().notes, ::testing::Contains(HasSubstr("high words")));
+      EXPECT_THAT(joined->info().notes, Contains(HasSubstr("high words")));
     }
   }
 }
@@ -139,7 +138,7 @@ TEST_P(MultiFile, AFieldThatAMemberLacksIsLeftOutWithANote) {
   write_set(members);
   const auto joined = open_snapshot(member(0));
   EXPECT_FALSE(has_field(*joined, 0, "smoothing_length"));
-  EXPECT_THAT(joined->info().notes, ::testing::Contains(HasSubstr("not every file")));
+  EXPECT_THAT(joined->info().notes, Contains(HasSubstr("not every file")));
 }
 
 TEST_P(MultiFile, ACompleteFileWhoseHeaderSpeaksOfMoreIsRead) {
@@ -148,7 +147,7 @@ TEST_P(MultiFile, ACompleteFileWhoseHeaderSpeaksOfMoreIsRead) {
   write(folder_ / "snap", whole);
   const auto opened = open_snapshot(folder_ / "snap");
   EXPECT_EQ(opened->info().files.size(), 1U);
-  EXPECT_THAT(opened->info().notes, ::testing::Contains(HasSubstr("424242 files")));
+  EXPECT_THAT(opened->info().notes, Contains(HasSubstr("424242 files")));
 }
 
 // Each of 68 particles in all, says that it is the only file.
@@ -163,7 +162,7 @@ TEST_P(MultiFile, FilesThatEachSayToBeTheOnlyOneAreReadTogetherWhereTheyAddUp) {
   for (const auto& path : {member(0), member(2), base(), set_folder()}) {
     const auto joined = open_snapshot(path);
     expect_same_columns(*joined, *open_whole());
-    EXPECT_THAT(joined->info().notes, ::testing::Contains(HasSubstr("each is the only one")));
+    EXPECT_THAT(joined->info().notes, Contains(HasSubstr("each is the only one")));
   }
 }
 

@@ -29,6 +29,12 @@ std::vector<float> cube(int count, double side) {
   return position;
 }
 
+MemorySnapshot particles_at(int type, const std::vector<float>& positions) {
+  MemorySnapshot snapshot;
+  snapshot.add(type, "position", positions, 3);
+  return snapshot;
+}
+
 std::vector<float> powers_of_ten(int count, double last) {
   std::vector<float> values;
   for (int i = 0; i < count; ++i) {
@@ -55,8 +61,7 @@ double half_width(const Camera& camera) {
 }
 
 TEST(SuggestScene, DrawsGasWithoutTheDarkMatterBesideIt) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(100, 0, 1));
   snapshot.add(1, "position", ball(100, 0, 1), 3);
   snapshot.add(4, "position", ball(100, 0, 1), 3);
   const Scene scene = classic(snapshot);
@@ -66,8 +71,7 @@ TEST(SuggestScene, DrawsGasWithoutTheDarkMatterBesideIt) {
 }
 
 TEST(SuggestScene, BringsAllLightWithinReachOfTheDisplay) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(100, 0, 1));
   const Scene scene = classic(snapshot);
   EXPECT_EQ(scene.components[0].absorption.kind, Absorption::Kind::none);
   EXPECT_EQ(scene.finish.tone, ToneCurve::filmic);
@@ -75,8 +79,7 @@ TEST(SuggestScene, BringsAllLightWithinReachOfTheDisplay) {
 }
 
 TEST(SuggestScene, DrawsEveryTypeWhereThereIsNoGas) {
-  MemorySnapshot snapshot;
-  snapshot.add(1, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(1, ball(100, 0, 1));
   snapshot.add(2, "position", ball(100, 0, 1), 3);
   const Scene scene = classic(snapshot);
   ASSERT_EQ(scene.components.size(), 2u);
@@ -107,8 +110,7 @@ TEST(SuggestScene, LeavesOutTheFarDarkMatterOfAUniverse) {
 }
 
 TEST(SuggestScene, HasNothingToTellWhereAllIsDrawn) {
-  MemorySnapshot snapshot;
-  snapshot.add(1, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(1, ball(100, 0, 1));
   snapshot.add(2, "position", ball(100, 0, 1), 3);
   EXPECT_EQ(tell_not_drawn(classic(snapshot), snapshot), "");
 }
@@ -128,8 +130,7 @@ TEST(SuggestScene, DrawsParticlesInColorsOfTheirOwnTogether) {
 }
 
 TEST(SuggestScene, TakesNoColorsBelowZeroForLight) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(100, 0, 1));
   std::vector<float> colors(300, 0.5f);
   colors[7] = -1;
   snapshot.add(0, "Color", colors, 3);
@@ -137,8 +138,7 @@ TEST(SuggestScene, TakesNoColorsBelowZeroForLight) {
 }
 
 TEST(SuggestComponent, FitsTheTypesThatAreAskedFor) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(100, 0, 1));
   snapshot.add(0, "internal_energy", powers_of_ten(100, 4));
   snapshot.add(1, "position", ball(100, 0, 1), 3);
   EXPECT_EQ(classic_component(snapshot, {0}).color.field, "internal_energy");
@@ -148,8 +148,7 @@ TEST(SuggestComponent, FitsTheTypesThatAreAskedFor) {
 }
 
 TEST(SuggestScene, ColorsGasByItsHeatIfThatVaries) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(100, 0, 1));
   snapshot.add(0, "density", powers_of_ten(100, 3));
   snapshot.add(0, "internal_energy", powers_of_ten(100, 4));
   const Component gas = classic(snapshot).components[0];
@@ -159,24 +158,21 @@ TEST(SuggestScene, ColorsGasByItsHeatIfThatVaries) {
 }
 
 TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatIsTheSameEverywhere) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(100, 0, 1));
   snapshot.add(0, "density", powers_of_ten(100, 3));
   snapshot.add(0, "internal_energy", std::vector<float>(100, 0.05f));
   EXPECT_EQ(classic(snapshot).components[0].color.field, "density");
 }
 
 TEST(SuggestScene, ColorsGasByItsDensityIfTheHeatHardlyVaries) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(100, 0, 1));
   snapshot.add(0, "density", powers_of_ten(100, 1));
   snapshot.add(0, "temperature", powers_of_ten(100, 0.1));
   EXPECT_EQ(classic(snapshot).components[0].color.field, "density");
 }
 
 TEST(SuggestScene, CutsARangeThatReachesDownToWhatIsAlmostZero) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(1000, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(1000, 0, 1));
   std::vector<float> density = powers_of_ten(1000, 3);
   std::fill(density.begin(), density.begin() + 40, 9e-43f);  // 4 %
   snapshot.add(0, "density", density);
@@ -186,8 +182,7 @@ TEST(SuggestScene, CutsARangeThatReachesDownToWhatIsAlmostZero) {
 }
 
 TEST(SuggestScene, NeverSpansMoreThanEightPowersOfTen) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(1000, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(1000, 0, 1));
   std::vector<float> density = powers_of_ten(1000, 3);
   std::fill(density.begin(), density.begin() + 700, 9e-43f);
   snapshot.add(0, "density", density);
@@ -196,8 +191,7 @@ TEST(SuggestScene, NeverSpansMoreThanEightPowersOfTen) {
 }
 
 TEST(SuggestScene, LetsWhatIsDenserStandOutInAnEvenBox) {
-  MemorySnapshot snapshot;
-  snapshot.add(1, "position", cube(5000, 100), 3);
+  MemorySnapshot snapshot = particles_at(1, cube(5000, 100));
   snapshot.set_box_size(100);
   const Component even = classic(snapshot).components[0];
   EXPECT_EQ(even.intensity.field, "density");
@@ -219,24 +213,21 @@ TEST(SuggestScene, LeavesTheContrastOfAClusteredBoxAsItIs) {
 }
 
 TEST(SuggestScene, DrawsSmallerCloudsWhereAllOfAnEvenBoxHaveOneSize) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", cube(5000, 100), 3);
+  MemorySnapshot snapshot = particles_at(0, cube(5000, 100));
   snapshot.add(0, "smoothing_length", std::vector<float>(5000, 12));
   snapshot.set_box_size(100);
   EXPECT_LT(classic(snapshot).components[0].size_factor, 0.5);
 }
 
 TEST(SuggestScene, WeighsByMassOnlyWhereMassesAreKnown) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(100, 0, 1), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(100, 0, 1));
   EXPECT_EQ(classic(snapshot).components[0].weight, WeightModel::constant);
   snapshot.set_table_mass(0, 3);
   EXPECT_EQ(classic(snapshot).components[0].weight, WeightModel::mass);
 }
 
 TEST(SuggestCamera, LooksAtTheMiddleOfAPeriodicBox) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", cube(5000, 100), 3);
+  MemorySnapshot snapshot = particles_at(0, cube(5000, 100));
   snapshot.set_box_size(100);
   const Camera camera = *suggest_scene(snapshot).camera;
   for (const double x : camera.look_at.a)
@@ -246,8 +237,7 @@ TEST(SuggestCamera, LooksAtTheMiddleOfAPeriodicBox) {
 }
 
 TEST(SuggestCamera, TakesAFilledCubeForABoxWhereTheHeaderHasNone) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", cube(5000, 100), 3);
+  MemorySnapshot snapshot = particles_at(0, cube(5000, 100));
   const Camera camera = *suggest_scene(snapshot).camera;
   for (const double x : camera.look_at.a)
     EXPECT_NEAR(x, 50, 0.5);
@@ -255,8 +245,7 @@ TEST(SuggestCamera, TakesAFilledCubeForABoxWhereTheHeaderHasNone) {
 }
 
 TEST(SuggestCamera, FindsAnObjectInALargeBox) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", ball(5000, 700, 2), 3);
+  MemorySnapshot snapshot = particles_at(0, ball(5000, 700, 2));
   snapshot.set_box_size(1000);
   const Camera camera = *suggest_scene(snapshot).camera;
   for (const double x : camera.look_at.a)
@@ -321,21 +310,18 @@ TEST(SuggestCamera, IsNotMovedByOutliersOrBadPositions) {
 }
 
 TEST(SuggestCamera, FramesTheDiskRatherThanItsHalo) {
-  MemorySnapshot snapshot;
-  snapshot.add(1, "position", ball(1000, 0, 100), 3);
+  MemorySnapshot snapshot = particles_at(1, ball(1000, 0, 100));
   snapshot.add(2, "position", ball(1000, 0, 5), 3);
   EXPECT_LT(half_width(*suggest_scene(snapshot).camera), 20);
 }
 
 TEST(SuggestCamera, SeesASingleParticle) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", {5, 5, 5}, 3);
+  MemorySnapshot snapshot = particles_at(0, {5, 5, 5});
   EXPECT_NO_THROW(make_camera_frame(*suggest_scene(snapshot).camera, 64, 64));
 }
 
 TEST(SuggestCamera, RefusesDataWithoutAFinitePosition) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", {std::nanf(""), 0, 0}, 3);
+  MemorySnapshot snapshot = particles_at(0, {std::nanf(""), 0, 0});
   EXPECT_THROW(suggest_scene(snapshot), DataError);
 }
 

@@ -1,7 +1,6 @@
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_writer.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
 
 namespace splotchcl::test {
 namespace {

@@ -5,7 +5,6 @@
 #include "formats/snapshot_checks.h"
 #include "formats/snapshot_writer.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
 
 namespace splotchcl::test {
 namespace {
@@ -47,7 +46,7 @@ TEST(GadgetHdf5, WhoseFileIsAnotherThanWhenItWasOpenedIsAnError) {
   write_hdf5(folder / "other.hdf5", small_snapshot());
   std::filesystem::rename(folder / "other.hdf5", folder / "snap.hdf5");
   EXPECT_THAT([&] { held->read(0, "position"); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("since it was opened; open it again")));
+              ThrowsMessage<DataError>(HasSubstr("since it was opened; open it again")));
   EXPECT_NO_THROW(open_snapshot(folder / "snap.hdf5")->read(0, "position"));
 }
 
@@ -209,7 +208,7 @@ TEST(GadgetHdf5, ADatasetThatWasNeverWrittenIsRefusedWithoutClaimingItsMemory) {
   }
   const auto opened = open_snapshot(folder / "snap.hdf5");
   EXPECT_THAT([&] { opened->read(1, "position"); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("not completely written")));
+              ThrowsMessage<DataError>(HasSubstr("not completely written")));
 }
 
 TEST(GadgetHdf5, PositionsThatEachFileOfASetNamesDifferentlyAreRefused) {
@@ -276,7 +275,7 @@ TEST(GadgetHdf5, AVirtualDatasetWithoutItsFileIsRefused) {
   write_virtual(folder / "snap.hdf5", folder / "part", small_snapshot());
   const auto snapshot = open_snapshot(folder / "snap.hdf5");
   EXPECT_THAT([&] { snapshot->read(0, "position"); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("part, which is missing")));
+              ThrowsMessage<DataError>(HasSubstr("part, which is missing")));
 }
 
 TEST(GadgetHdf5, AnHdf5FileOfAnotherKindIsRefusedWithItsGroups) {

@@ -5,7 +5,6 @@
 #include "formats/snapshot_checks.h"
 #include "scene/particle_columns.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
 
 namespace splotchcl::test {
 namespace {
@@ -131,7 +130,7 @@ TEST_F(Hdf5Storage, AVirtualDatasetOfFewerPartsThanItClaimsIsRefused) {
   file_ = Hdf5Output();
   const Hdf5File file(path_);
   EXPECT_THAT([&] { file.check_complete(file.dataset("/PartType0/Large")); },
-              ::testing::ThrowsMessage<DataError>(HasSubstr("not all in the file")));
+              ThrowsMessage<DataError>(HasSubstr("not all in the file")));
 }
 
 #if H5_VERSION_GE(1, 10, 7)

@@ -2,7 +2,6 @@
 #include "formats/snapshot_checks.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/snapshot_file.h"
-#include "temporary_folder.h"
 
 namespace splotchcl::test {
 namespace {
