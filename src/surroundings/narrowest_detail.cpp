@@ -43,8 +43,17 @@ bool is_in_picture(const SplatAround& disc, double radius, const Frame& frame) {
 // Nothing between the pixels tells where a disc ends.
 constexpr double single_pixels = 0.5;
 
+bool ends_in_picture(const SplatAround& splat, const Frame& frame) {
+  return frame.kernel.cut && is_in_picture(splat, *frame.kernel.cut, frame);
+}
+
+bool ends_in_picture(const CloudAround& cloud, const Frame& frame) {
+  return std::any_of(cloud.splats.begin(), cloud.splats.end(),
+                     [&frame](const SplatAround& splat) { return ends_in_picture(splat, frame); });
+}
+
 double narrowest_of(const SplatAround& splat, const Frame& frame) {
-  if (frame.kernel.cut && is_in_picture(splat, *frame.kernel.cut, frame)) return single_pixels;
+  if (ends_in_picture(splat, frame)) return single_pixels;
   return std::min(splat.sigma_x, splat.sigma_y);
 }
 
@@ -62,6 +71,28 @@ double narrowest_detail(const std::vector<CloudAround>& clouds, std::size_t firs
       narrowest = std::min(narrowest, narrowest_of(splat, frame));
   }
   return std::min(narrowest, 1 / (farthest * widest_pixel(frame)));
+}
+
+std::vector<std::size_t> ends_of_stretches(const std::vector<CloudAround>& clouds,
+                                           std::size_t first, std::size_t end, const Frame& frame) {
+  // To work fewer out in every pixel takes no longer than to lay one more picture behind the
+  // others.
+  constexpr std::size_t fewest = 4;
+  std::vector<std::size_t> ends;
+  std::size_t begin = first;   // of the clouds since the last end
+  std::size_t smooth = first;  // of those since the last whose kernel ends in the picture
+  for (std::size_t i = first; i < end; ++i) {
+    if (!ends_in_picture(clouds[i], frame)) continue;
+    if (i - smooth >= fewest) {
+      if (smooth > begin) ends.push_back(smooth);
+      ends.push_back(i);
+      begin = i;
+    }
+    smooth = i + 1;
+  }
+  if (smooth > begin && end - smooth >= fewest) ends.push_back(smooth);
+  ends.push_back(end);
+  return ends;
 }
 
 }  // namespace splotchcl

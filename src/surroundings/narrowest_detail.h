@@ -13,4 +13,10 @@ namespace splotchcl {
 double narrowest_detail(const std::vector<CloudAround>& clouds, std::size_t first, std::size_t end,
                         const Frame& frame);
 
+// Of clouds [first, end) stretches that follow each other, by their ends: where a cut kernel ends
+// in the picture every pixel has to be worked out, and the clouds before and behind it need not be
+// worked out with it. A single stretch where no kernel ends in the picture.
+std::vector<std::size_t> ends_of_stretches(const std::vector<CloudAround>& clouds,
+                                           std::size_t first, std::size_t end, const Frame& frame);
+
 }  // namespace splotchcl

@@ -7,6 +7,7 @@
 #include "scene/projection.h"
 #include "surroundings/clouds_in_blocks.h"
 #include "surroundings/columns_around.h"
+#include "surroundings/narrowest_detail.h"
 #include "testing.h"
 
 namespace splotchcl::test {
@@ -217,6 +218,37 @@ TEST(CloudsInBlocks, AreAllOfThemWherePixelsLieFarApart) {
   const CloudsInBlocks in_blocks(clouds, 3, clouds.size(), frame);
   EXPECT_EQ(in_blocks.at(0, 0, 64).size(), clouds.size() - 3);
   EXPECT_EQ(in_blocks.at(0, 0, 64).front(), 3u);
+}
+
+// '-' a cloud that is smooth all over the picture, 'E' one whose kernel ends in it.
+std::vector<std::size_t> ends_of(const std::string& kinds, std::size_t first = 0) {
+  Frame frame;
+  frame.width = frame.height = 100;
+  frame.kernel.cut = 1.8;
+  std::vector<CloudAround> clouds(kinds.size());
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    clouds[i].splats = {{kinds[i] == 'E' ? 50.0 : 50000.0, 50, 200, 200}};
+  return ends_of_stretches(clouds, first, clouds.size(), frame);
+}
+
+TEST(StretchesOfClouds, AreOneWhereNoKernelEndsInThePicture) {
+  EXPECT_THAT(ends_of("--------"), testing::ElementsAre(8));
+}
+
+TEST(StretchesOfClouds, PartManySmoothOnesFromThoseWhoseKernelEndsInThePicture) {
+  EXPECT_THAT(ends_of("------E-----"), testing::ElementsAre(6, 7, 12));
+  EXPECT_THAT(ends_of("EE-----E"), testing::ElementsAre(2, 7, 8));
+  EXPECT_THAT(ends_of("------E"), testing::ElementsAre(6, 7));
+}
+
+TEST(StretchesOfClouds, TakeFewSmoothOnesTogetherWithTheirNeighbors) {
+  EXPECT_THAT(ends_of("-E--E---E-"), testing::ElementsAre(10));
+  EXPECT_THAT(ends_of("-----E--E-----"), testing::ElementsAre(5, 9, 14));
+}
+
+TEST(StretchesOfClouds, BeginWhereTheLayerDoes) {
+  EXPECT_THAT(ends_of("------E-----", 4), testing::ElementsAre(7, 12));
+  EXPECT_THAT(ends_of("------E-----", 7), testing::ElementsAre(12));
 }
 
 }  // namespace

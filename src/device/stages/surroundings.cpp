@@ -292,8 +292,24 @@ void Surroundings::draw(const std::vector<CloudAround>& clouds, const CloudLayer
   put_behind(clouds, layer, clouds.size(), planes);
 }
 
+// The layer in stretches of clouds that are worked out alike, one behind the other.
 void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                               std::size_t parts, const Planes& planes) const {
+  // Certified frames are worked out in every pixel.
+  const std::vector<std::size_t> ends =
+      context_.plan.certify ? std::vector{layer.end}
+                            : ends_of_stretches(clouds, layer.first, layer.end, context_.frame);
+  CloudLayer stretch = layer;
+  for (const std::size_t end : ends) {
+    stretch.end = end;
+    put_stretch_behind(clouds, stretch, std::max(parts, ends.size()), planes);
+    stretch.first = end;
+  }
+}
+
+void Surroundings::put_stretch_behind(const std::vector<CloudAround>& clouds,
+                                      const CloudLayer& layer, std::size_t parts,
+                                      const Planes& planes) const {
   const Rectangle& crop = context_.frame.crop;
   shared::BehindParameters parameters{};
   parameters.width = crop.width;

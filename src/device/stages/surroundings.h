@@ -64,6 +64,8 @@ class Surroundings {
   // `parts` of the picture share what they may err by.
   void put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                   std::size_t parts, const Planes& planes) const;
+  void put_stretch_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
+                          std::size_t parts, const Planes& planes) const;
 
   const StageContext& context_;
 };
