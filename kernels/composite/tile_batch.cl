@@ -164,6 +164,7 @@ static inline float deepest_of(const __local TileSplat* splat, float mean_sigma)
          (splat->sigma < mean_sigma ? min(1.0f, flux) : 1.0f);
 }
 
+#define THREE_OF(numbers) (float3)((numbers)[0], (numbers)[1], (numbers)[2])
 INLINED void put_layer(__local BatchLight* light, uint k, const float3 absorption,
                        const float3 emission, float deepest) {
   light->absorption_and_red[k] = (float4)(absorption, emission.x);
@@ -177,18 +178,20 @@ INLINED int prepare_light(__local BatchLight* light, uint k, const __local TileS
                           float mean_sigma, const CompositeParameters p, const TileClouds* clouds) {
   if (CLOUDS_IN_LISTS && is_cloud(splat->sigma)) {
     __global const CloudEntry* cloud = cloud_of(splat->sigma, clouds);
-    put_layer(light, k, vload3(0, cloud->absorption), vload3(0, cloud->emission), cloud->deepest);
+    put_layer(light, k, THREE_OF(cloud->absorption), THREE_OF(cloud->emission), cloud->deepest);
     return 1;
   }
   const float deepest = deepest_of(splat, mean_sigma);
-  put_layer(light, k, vload3(0, splat->absorption), vload3(0, splat->emission), deepest);
+  put_layer(light, k, THREE_OF(splat->absorption), THREE_OF(splat->emission), deepest);
   return deepest > p.phi_short;
 }
 #else
 INLINED int prepare_light(__local BatchLight* light, uint k, const __local TileSplat* splat,
                           float mean_sigma, const CompositeParameters p, const TileClouds* clouds) {
-  for (int i = 0; i < SUMMED / 3; ++i)
-    light->summed[k * (SUMMED / 3) + i] = (float4)(vload3(i, splat->summed), 0.0f);
+  for (int i = 0; i < SUMMED / 3; ++i) {
+    const __local float* summed = splat->summed + 3 * i;
+    light->summed[k * (SUMMED / 3) + i] = (float4)(summed[0], summed[1], summed[2], 0.0f);
+  }
   return 0;
 }
 #endif
