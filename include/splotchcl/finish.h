@@ -70,7 +70,8 @@ struct CrossFade {
 
 // All of it. Each default leaves the picture as it has been drawn.
 struct FinishSettings {
-  // The part of light that a lens scatters around where it falls, from 0 to 1 (src/finish/bloom.h).
+  // The part of light that a lens scatters around where it falls, from 0 to 1
+  // (src/finish/effects.h).
   double bloom = 0;
   // In stops: light is multiplied by 2^exposure. Unset: found from the picture, for a film once.
   std::optional<double> exposure = 0;

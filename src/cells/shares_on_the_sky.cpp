@@ -5,7 +5,7 @@
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
-#include "cells/sky_rules.h"
+#include "cells/sky_grid.h"
 #include "scene/constants.h"
 
 namespace splotchcl {
@@ -163,6 +163,17 @@ void add_shares_on_the_sky(const SkyGrid& grid, const GaussianOnSky& particle,
   for (const SeenPatch& cell : cells)
     spread.visit(cell);
   if (has_all) bring_to_one(first, shares);
+}
+
+void add_shares_in_shells(const std::vector<double>& edges, double distance, double sigma,
+                          std::vector<CellShare>& shares) {
+  const double reach = kernel_reach * sigma;
+  const auto above = std::upper_bound(edges.begin(), edges.end(), distance - reach);
+  const auto begin = above == edges.begin() ? edges.begin() : above - 1;
+  for (auto edge = begin; edge + 1 < edges.end() && *edge < distance + reach; ++edge) {
+    const double part = gaussian_in_shell(distance, *edge, *(edge + 1), sigma);
+    if (part > 0) shares.push_back({static_cast<std::size_t>(edge - edges.begin()), part});
+  }
 }
 
 }  // namespace splotchcl

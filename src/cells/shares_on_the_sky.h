@@ -29,4 +29,8 @@ double reach_that_counts(const GaussianOnSky& particle, const SkyAccuracy& accur
 void add_shares_on_the_sky(const SkyGrid& grid, const GaussianOnSky& particle,
                            const SkyAccuracy& accuracy, std::vector<CellShare>& shares);
 
+// Shells between rising radii around a point: what each has of a particle at this distance.
+void add_shares_in_shells(const std::vector<double>& edges, double distance, double sigma,
+                          std::vector<CellShare>& shares);
+
 }  // namespace splotchcl

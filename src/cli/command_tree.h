@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -40,5 +41,9 @@ struct CommandTree {
 };
 
 CommandTree describe_commands(const CLI::App& app);
+
+// Writes what belongs to the installed program below a folder: man1/, bash/, zsh/, fish/. Throws
+// DataError. The build calls it as the hidden command `pages FOLDER`.
+int write_pages(const CommandTree& tree, const std::filesystem::path& folder);
 
 }  // namespace splotchcl::cli

@@ -66,7 +66,7 @@ int run_view(const ViewOptions& options, Console& console);
 
 struct MapOptions : DrawOptions {
   std::vector<std::filesystem::path> outputs;
-  // Of the options that stand for keys of [map], by key (map_options.h); empty: not given.
+  // Of the options that stand for keys of [map], by key (scene_options.h); empty: not given.
   std::map<std::string, std::string> texts;
   std::map<std::string, bool> flags;
 

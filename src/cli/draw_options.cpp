@@ -10,7 +10,7 @@
 #include "cli/commands.h"
 #include "cli/json_answer.h"
 #include "common/unfinished_file.h"
-#include "common/utf8.h"
+#include "common/words.h"
 #include "estimate/frame_estimate.h"
 #include "film/drawing/tree_choice.h"
 #include "pictures/units_of_white.h"

@@ -15,7 +15,7 @@
 #include "open_scene/input_files.h"
 #include "pictures/other_scenes.h"
 #include "scene/constants.h"
-#include "snapshot/cached_snapshot.h"
+#include "snapshot/derived_snapshots.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"

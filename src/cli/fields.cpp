@@ -8,7 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_answer.h"
-#include "common/utf8.h"
+#include "common/words.h"
 #include "load/derived_fields.h"
 #include "load/type_fields.h"
 #include "map/map_units.h"

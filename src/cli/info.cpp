@@ -5,7 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_answer.h"
-#include "common/utf8.h"
+#include "common/words.h"
 #include "load/derived_fields.h"
 #include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"

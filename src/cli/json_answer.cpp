@@ -4,7 +4,7 @@
 
 #include <iostream>
 
-#include "common/utf8.h"
+#include "common/words.h"
 
 namespace splotchcl::cli {
 

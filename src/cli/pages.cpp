@@ -1,5 +1,3 @@
-#include "cli/pages.h"
-
 #include <algorithm>
 #include <sstream>
 #include <string>

@@ -10,7 +10,7 @@
 #include "cli/commands.h"
 #include "cli/json_answer.h"
 #include "common/output_files.h"
-#include "common/utf8.h"
+#include "common/words.h"
 #include "finish/overlay.h"
 #include "image/text.h"
 #include "scene/ceil_divide.h"

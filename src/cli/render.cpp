@@ -5,7 +5,6 @@
 #include <map>
 
 #include "cli/commands.h"
-#include "cli/compiler_process.h"
 #include "cli/draw_options.h"
 #include "cli/processes.h"
 #include "common/output_files.h"

@@ -1,7 +1,11 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <iostream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cli/command_builder.h"
 #include "cli/commands.h"
@@ -10,7 +14,9 @@
 #include "splotchcl/error.h"
 #include "splotchcl/open_scene.h"
 #include "splotchcl/snapshot.h"
-#include "view/live_view.h"
+#include "view/draw_loop.h"
+#include "view/page_server.h"
+#include "view/requests/page_requests.h"
 
 namespace splotchcl::cli {
 
@@ -55,6 +61,30 @@ constexpr std::chrono::milliseconds patience_at_the_end(1000);
   ::_exit(0);
 }
 
+// A scene that is looked at in a browser (docs/view.md).
+struct LiveView {
+  LiveView(SceneWithSnapshot source, const ViewOptions& options, std::vector<std::string>& notes)
+      : token(view::make_token()),
+        pages(std::move(source), {options.device, {}, {}}, notes),
+        server(options.address, options.port,
+               view::AccessRules(token, options.address, options.framed_in), pages) {}
+  // What is drawn at the end is still sent by the server.
+  ~LiveView() { pages.stop(); }
+  LiveView(const LiveView&) = delete;
+  LiveView& operator=(const LiveView&) = delete;
+
+  std::string token;
+  view::DrawLoop pages;
+  view::PageServer server;
+};
+
+// With the token that lets one see the page.
+std::string address_of(const LiveView& view, const std::string& bound_to) {
+  const bool is_version_6 = bound_to.find(':') != std::string::npos;
+  const std::string host = is_version_6 ? "[" + bound_to + "]" : bound_to;
+  return fmt::format("http://{}:{}/{}/", host, view.server.port(), view.token);
+}
+
 bool is_own_address(const std::string& address) {
   return address.rfind("127.", 0) == 0 || address == "::1";
 }
@@ -72,18 +102,16 @@ int run_view(const ViewOptions& options, Console& console) {
   std::vector<std::string> notes = source.notes;
   const std::vector<std::string>& of_snapshot = source.snapshot->info().notes;
   notes.insert(notes.end(), of_snapshot.begin(), of_snapshot.end());
-  view::LiveView page(std::move(source),
-                      {options.device, {}, options.address, options.port, options.framed_in},
-                      notes);
+  LiveView view(std::move(source), options, notes);
   console.note_each_once(notes);
   console.done("the page is at the address below until Ctrl-C");
-  std::cout << page.address() << std::endl;
+  std::cout << address_of(view, options.address) << std::endl;
   if (!std::cout) {
     throw DataError(
         "standard output could not be written, where the page's address stands: is the disk full?");
   }
-  page.run();
-  page.end_within(patience_at_the_end);
+  view.server.run();
+  view.pages.stop_within(patience_at_the_end);
   leave_all_as_it_is();
 }
 

@@ -14,8 +14,8 @@
 #include <sstream>
 #include <thread>
 
-#include "common/folders.h"
-#include "common/reason.h"
+#include "common/unfinished_file.h"
+#include "common/words.h"
 #include "splotchcl/error.h"
 
 extern char** environ;

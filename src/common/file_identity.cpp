@@ -12,7 +12,7 @@
 #include <ctime>
 #include <vector>
 
-#include "common/reason.h"
+#include "common/words.h"
 #include "scene/hash.h"
 #include "splotchcl/error.h"
 #include "system/system.h"

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "common/shrink_guard.h"
+#include "common/guards.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -18,6 +18,9 @@ std::string lower_case(std::string text);
 // A path's ending in lower case: ".toml"; empty where it has none.
 std::string lower_ending(const std::filesystem::path& path);
 
+// Where a file lies, as a path that can be opened: of a name alone ".".
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 // The number that is all of the text, finite or not; a plus sign may stand before it.
 std::optional<double> parse_number(const std::string& text);
 
@@ -31,5 +34,25 @@ std::optional<std::string> nearest_name(const std::string& name,
 
 // "; did you mean x?", or nothing.
 std::string did_you_mean(const std::optional<std::string>& name);
+
+// What the system says of an errno.
+std::string reason(int error_number);
+
+struct Character {
+  std::optional<char32_t> code;  // none: a byte that is no UTF-8
+  std::string_view bytes;        // of the text
+};
+
+std::vector<Character> characters_of(std::string_view text);
+
+// What a scene names must be UTF-8, as its file is. Throws UsageError.
+void require_utf8(const std::string& text);
+
+// Whether a terminal may obey it rather than show it: control characters, and those that turn the
+// order of letters or end a line.
+bool is_control(char32_t code);
+
+// With a question mark for each of these, and for each byte that is no UTF-8.
+std::string printable(std::string_view text);
 
 }  // namespace splotchcl

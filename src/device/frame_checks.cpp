@@ -3,7 +3,7 @@
 #include <string>
 
 #include "ranks/spread_particles.h"
-#include "scene/picture_limits.h"
+#include "scene/constants.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -5,12 +5,33 @@
 #include <vector>
 
 #include "finish/bars.h"
-#include "finish/inset.h"
 #include "finish/overlay.h"
+#include "splotchcl/frame.h"
+#include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
+#include "splotchcl/stereo.h"
 #include "splotchcl/views.h"
 
 namespace splotchcl {
+
+// The second view, before it is drawn.
+struct Inset {
+  Frame frame;
+  int x = 0, y = 0;  // of its corner, without the border
+  Box border;
+  Light border_light{};
+};
+
+// Throws UsageError for names that no component has.
+void check_inset(const Scene& scene);
+
+// The frame as the inset's camera, or an eye of it, sees it, and its place. The frame has the
+// camera in the middle between or beside the eyes. Throws UsageError where the inset's camera
+// or its size is not possible.
+Inset make_inset(const Scene& scene, const Frame& frame, std::optional<Eye> eye, Layout& layout);
+
+// `picture` is the inset's own, with the picture's exposure, saturation and contrast.
+void put(Canvas& canvas, const Inset& inset, const Image& picture);
 
 // What can be told to be wrong with a scene's [finish] before particles are read: fonts,
 // placeholders, names of components, the scene to fade to. Throws UsageError.

@@ -9,6 +9,10 @@
 
 namespace splotchcl {
 
+// Linear light of Rec. 709 in which that of a black body at so many kelvin, 1667 to 25000, becomes
+// white (D65), by Bradford's adaptation; what falls below 0 is 0. Alpha stays.
+void balance_white(Image& image, double kelvin);
+
 // What the display shows of exposed light >= 0 of a pixel's brightest channel, where `white` > 0
 // becomes 1. Each curve goes from 0 at 0 and never falls; asinh and filmic end at 1.
 //   linear  light / white
@@ -80,7 +84,7 @@ FinishSettings with_any_tone(const FinishSettings& finish, double gamma,
 // Exposure, then white balance, tone, saturation and contrast, of linear light; alpha stays.
 // Nothing happens to pixels for settings that change nothing. Exposure and white are known (above).
 //   exposure     L' = L 2^exposure
-//   balance      as white_balance.h has it
+//   balance      as balance_white() has it
 //   tone         as tone() has it
 //   saturation   L' = max(0, Y + saturation (L - Y)), Y = 0.2126 R + 0.7152 G + 0.0722 B
 //   contrast     L' = p (L / p)^contrast with p = contrast_pivot^gamma, which is

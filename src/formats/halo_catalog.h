@@ -37,7 +37,7 @@ struct HaloMembers {
 // 0; the snapshot has its particles in the order of haloes), a membership file of SOAP
 // (GroupNr_bound of each particle) or its halo_properties with that beside it, or VELOCIraptor's
 // catalog_groups with the catalog_particles beside it (counted from 1); as text AHF's or Rockstar's
-// (halo_lists.h, halo_spheres.h). `path` is any file of a catalog in several; CATALOG/Subhalo
+// (halo_lists.h). `path` is any file of a catalog in several; CATALOG/Subhalo
 // counts the subhaloes of SUBFIND from 0. Throws DataError.
 HaloMembers read_halo(const std::filesystem::path& path, std::uint64_t number, int type);
 

@@ -6,10 +6,10 @@
 #include <map>
 
 #include "formats/snapshot_format.h"
+#include "snapshot/derived_snapshots.h"
 #include "snapshot/field_names.h"
 #include "snapshot/named_units.h"
 #include "snapshot/snapshot_files.h"
-#include "snapshot/subset_snapshot.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <optional>
 
-#include "formats/position_origin.h"
+#include "formats/stored_values.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "common/utf8.h"
+#include "common/words.h"
 #include "snapshot/field_names.h"
 
 namespace splotchcl {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "formula/formula_functions.h"
+#include "formula/formula_words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "formula/formula_functions.h"
+#include "formula/formula_words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

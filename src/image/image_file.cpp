@@ -9,13 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "common/guards.h"
 #include "common/mapped_file.h"
-#include "common/quiet_errors.h"
 #include "common/unfinished_file.h"
 #include "common/words.h"
 #include "image/image_library.h"
 #include "image/picture_encoders.h"
-#include "image/png_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct PictureArea {
 // All that is done by OpenImageIO. It brings some 250 shared libraries with it, which take a
 // quarter of a second to load: as long as a frame of millions of particles. So it lies in a
 // module of its own (src/openimageio) that is loaded when the first picture needs it: one that is
-// read, or written in a format that png_file.h and picture_encoders.h do not know.
+// read, or written in a format that picture_encoders.h does not know.
 class ImageLibrary {
  public:
   virtual ~ImageLibrary() = default;
@@ -53,5 +54,16 @@ const ImageLibrary& image_library();
 // What the module exports.
 using ImageLibraryEntry = const ImageLibrary*();
 inline constexpr char image_library_entry[] = "splotchcl_image_library";
+
+// A picture as light behind everything (Frame::background_image): scaled to fill width x
+// height pixels, what overhangs is cut off. Whole numbers in the file are display values
+// and become value^gamma, floats are linear light. Throws DataError when the file cannot
+// be read or holds light that is negative or not finite.
+std::shared_ptr<const Image> load_background_image(const std::filesystem::path& path, int width,
+                                                   int height, double gamma);
+
+// The picture scaled to fill width x height pixels; what overhangs is cut off. The same
+// picture where it has that size.
+Image scaled_to_fill(const Image& image, int width, int height);
 
 }  // namespace splotchcl

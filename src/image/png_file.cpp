@@ -1,5 +1,3 @@
-#include "image/png_file.h"
-
 #include <png.h>
 #include <zlib.h>
 
@@ -11,6 +9,7 @@
 #include <new>
 #include <string>
 
+#include "image/picture_encoders.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "splotchcl/error.h"

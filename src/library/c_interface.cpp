@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "ranks/exchange.h"
-#include "scene/picture_limits.h"
+#include "scene/constants.h"
 #include "splotchcl/array_snapshot.h"
 #include "splotchcl/communicator.h"
 #include "splotchcl/error.h"

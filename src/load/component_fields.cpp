@@ -12,7 +12,6 @@
 #include "load/component_tree.h"
 #include "load/passes.h"
 #include "parallel/available_memory.h"
-#include "ranks/rank_pass.h"
 #include "ranks/spread_particles.h"
 #include "scene/particle_columns.h"
 #include "snapshot/field_names.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "common/physical_constants.h"
+#include "scene/constants.h"
 #include "scene/particle_columns.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"

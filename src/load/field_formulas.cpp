@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "formula/selection.h"
 #include "load/derived_fields.h"
-#include "select/selection.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 

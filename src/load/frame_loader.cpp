@@ -12,7 +12,7 @@
 
 #include "finish/bars.h"
 #include "finish/finish_picture.h"
-#include "image/background_image.h"
+#include "image/image_library.h"
 #include "load/component_fields.h"
 #include "load/component_tree.h"
 #include "load/components.h"

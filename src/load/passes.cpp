@@ -1,6 +1,6 @@
 #include "load/passes.h"
 
-#include "ranks/rank_pass.h"
+#include "ranks/spread_particles.h"
 #include "snapshot/load_memory.h"
 
 namespace splotchcl {

@@ -11,12 +11,12 @@
 
 #include "formats/halo_catalog.h"
 #include "formats/numpy/numpy_array.h"
+#include "formula/selection.h"
 #include "load/field_formulas.h"
 #include "load/passes.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/particle_columns.h"
-#include "select/selection.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 #include "snapshot/unit.h"

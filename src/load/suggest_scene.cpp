@@ -5,8 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "common/utf8.h"
-#include "load/paper_look.h"
+#include "common/words.h"
 #include "load/passes.h"
 #include "load/press_look.h"
 #include "load/suggest_camera.h"
@@ -15,10 +14,26 @@
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
+#include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {
 namespace {
+
+// From a scene in Look::press, before its light is finished: matter is ink, which gives off no
+// light and absorbs that of white paper.
+void change_to_paper(Scene& scene) {
+  for (Component& component : scene.components) {
+    if (component.brightness == 0) continue;  // dust is ink as it is
+    component.absorption = {Absorption::Kind::factor, component.brightness};
+    component.brightness = 0;
+    component.color_vector.clear();
+    component.palette = component.color.field.empty() ? "white" : "ink";
+  }
+  scene.image.background = {1, 1, 1};
+  scene.finish = FinishSettings();
+  scene.finish.text_color = {0, 0, 0};
+}
 
 constexpr int gas = 0, halo = 1, disk = 2, bulge = 3, stars = 4;
 

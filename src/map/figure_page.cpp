@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "finish/placeholders.h"
+#include "finish/overlay.h"
 #include "map/figure.h"
 #include "map/sheet.h"
 

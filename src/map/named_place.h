@@ -22,4 +22,9 @@ Vec3 read_place(const std::string& text, const Scene& scene, const Snapshot& sna
 // "Mpc" of "25,25,25 Mpc" or of "4Mpc"; nothing of numbers alone.
 std::string unit_of_lengths(const std::string& lengths);
 
+// The scene with map.width, depth, center and shell as numbers, where they are written with units;
+// an angle as what is seen under it from map.distance, or in degrees for a map of the sky. Throws
+// UsageError.
+Scene with_lengths_as_numbers(const Scene& scene, const Snapshot& snapshot);
+
 }  // namespace splotchcl

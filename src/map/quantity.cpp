@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "common/physical_constants.h"
 #include "map/map_units.h"
 #include "map/shape.h"
+#include "scene/constants.h"
 #include "splotchcl/error.h"
 #include "splotchcl/periodic.h"
 

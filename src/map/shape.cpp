@@ -7,8 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "cells/healpix_grid.h"
+#include "cells/sky_grid.h"
+#include "common/words.h"
 #include "splotchcl/error.h"
+#include "splotchcl/map.h"
 
 namespace splotchcl {
 namespace {
@@ -123,6 +125,44 @@ MapShape shape_of(const MapSettings& settings) {
   check_histogram(settings);
   if (is_made_of_cells(shape)) check_quantity_of_cells(settings, shape);
   return shape;
+}
+
+const Component& component_of_map(const Scene& scene) {
+  if (scene.components.empty()) {
+    throw UsageError("the scene has no component, expected at least one; add a [[component]]");
+  }
+  if (scene.map.component.empty()) return scene.components.front();
+  std::vector<std::string> names;
+  for (const Component& component : scene.components) {
+    if (component.name == scene.map.component) return component;
+    names.push_back(component.name);
+  }
+  throw UsageError("key map.component: found \"" + scene.map.component +
+                   "\", expected the name of a component" +
+                   did_you_mean(nearest_name(scene.map.component, names)));
+}
+
+Scene scene_of_numbers(const Scene& scene, const Component& component) {
+  Scene one = scene;
+  one.components = {component};
+  Component& only = one.components.front();
+  only.color = {};
+  only.intensity = {};
+  only.color_vector.clear();
+  one.finish = {};
+  one.sort = {};
+  return one;
+}
+
+double MapAxis::edge(int i) const {
+  const double part = static_cast<double>(i) / cells;
+  if (i == cells) return last;
+  return is_logarithmic ? first * std::pow(last / first, part) : first + part * (last - first);
+}
+
+int Map::planes() const {
+  if (shape == MapShape::velocities) return velocity->channels;
+  return shape == MapShape::voxels ? axes[2].cells : 1;
 }
 
 }  // namespace splotchcl

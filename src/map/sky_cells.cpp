@@ -8,13 +8,10 @@
 #include <numeric>
 #include <utility>
 
-#include "cells/healpix_grid.h"
-#include "cells/picture_of_the_sky.h"
 #include "cells/shares_on_the_sky.h"
+#include "cells/sky_grid.h"
 #include "cells/sky_lattice.h"
-#include "cells/sky_rules.h"
 #include "map/cell_map.h"
-#include "map/cell_sums.h"
 #include "parallel/for_blocks.h"
 #include "scene/constants.h"
 #include "splotchcl/error.h"

@@ -5,9 +5,7 @@
 #include <mutex>
 
 #include "cells/gaussian.h"
-#include "cells/shares_along_an_axis.h"
 #include "map/cell_map.h"
-#include "map/cell_sums.h"
 #include "parallel/for_blocks.h"
 #include "splotchcl/periodic.h"
 

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "common/words.h"
+#include "formula/selection.h"
 #include "load/type_fields.h"
 #include "map/named_place.h"
-#include "select/selection.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"

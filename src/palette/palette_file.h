@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "palette/palette_lines.h"
 #include "splotchcl/palette.h"
 
 namespace splotchcl {
@@ -17,5 +20,25 @@ Palette parse_palette(const std::string& text, const std::string& name_for_messa
 // What the first comment of a palette file says, without "name:" in front; the first line of the
 // original program's .pal. Empty where there is none.
 std::string palette_description(const std::string& text, const std::string& name);
+
+// Palettes in the forms of other programs. Each is none where the file is something else, and
+// throws DataError with the file's name where it is damaged.
+
+// 256 colors as bytes: red, green and blue of each (Adobe's .act), or all of red, of green and of
+// blue (ImageJ's .lut), which the ending of the name tells apart.
+std::optional<Palette> read_byte_palette(const std::string& bytes, const std::string& name);
+
+// An array of NumPy (.npy): a row for each color.
+std::optional<Palette> read_numpy_palette(const std::string& bytes, const std::string& name);
+
+// ParaView's color maps, in JSON or XML: the first of a file.
+std::optional<Palette> read_paraview_palette(const std::string& text, const std::string& name);
+
+// GMT's tables of colors between values (.cpt), in RGB.
+std::optional<Palette> read_gmt_palette(const std::vector<PaletteLine>& lines,
+                                        const std::string& name);
+
+// DS9's and SAOimage's, where red, green and blue have places of their own.
+std::optional<Palette> read_sao_palette(const std::string& text, const std::string& name);
 
 }  // namespace splotchcl

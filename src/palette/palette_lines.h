@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "splotchcl/palette.h"
+
 namespace splotchcl {
 
 // More rows than any palette has are those of something else.
@@ -30,5 +32,15 @@ std::string shown(std::string_view text);
 
 [[noreturn]] void refuse_palette(const std::string& name, std::size_t line,
                                  const std::string& problem);
+
+// A color and where it is.
+struct PlacedColor {
+  double place = 0;
+  Rgb color;
+};
+
+// Knots at even steps from the first place to the last, which must not decrease: the colors
+// themselves where they are so, else many between them.
+std::vector<Rgb> even_knots(const std::vector<PlacedColor>& colors);
 
 }  // namespace splotchcl

@@ -2,15 +2,14 @@
 #include <optional>
 #include <utility>
 
-#include "finish/bloom.h"
+#include "finish/effects.h"
 #include "finish/finish_picture.h"
-#include "finish/joined_pictures.h"
 #include "finish/tone.h"
 #include "pictures/other_scenes.h"
+#include "scene/views.h"
 #include "splotchcl/load.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/snapshot.h"
-#include "views/views.h"
 
 namespace splotchcl {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "finish/joined_pictures.h"
+#include "finish/effects.h"
 #include "finish/tone.h"
 #include "splotchcl/load.h"
 

@@ -26,10 +26,4 @@ bool is_splat_file(const std::filesystem::path& path);
 std::string as_splat_file(const std::filesystem::path& path, const std::vector<ViewerSplat>& splats,
                           const Frame& frame, const std::string& comment);
 
-// A color as the constant term of spherical harmonics has it in these files.
-std::array<float, 3> harmonic_of(const std::array<float, 3>& color);
-
-// With the y axis up and the z axis towards the camera.
-std::array<float, 3> upwards(const std::array<float, 3>& place);
-
 }  // namespace splotchcl

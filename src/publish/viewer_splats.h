@@ -40,4 +40,21 @@ Image displayed(Image light, const DisplayLight& display);
 std::vector<ViewerSplat> viewer_splats(const std::vector<LightSplat>& splats, const Frame& frame,
                                        const DisplayLight& display, const LightToOpacity& opacity);
 
+// What viewers show of the splats with the frame's camera, over black, in display values: splats
+// are sorted by the depth of their middles, each is widened by 0.3 pixels squared and cut where it
+// changes less than one of 255 steps or is three deviations away, and lies over those behind it.
+Image picture_of_viewers(const std::vector<ViewerSplat>& splats, const Frame& frame);
+
+// Splats for viewers, and how far what they show is from what the program shows.
+struct NearestSplats {
+  std::vector<ViewerSplat> splats;
+  LightToOpacity opacity;
+  double rms_difference = 0, largest_difference = 0;  // of display values, 0 to 1
+};
+
+// Those whose picture by viewers is nearest to `exact`, the frame's light over black, in display
+// values and root mean square.
+NearestSplats nearest_splats(const std::vector<LightSplat>& splats, const Frame& frame,
+                             const Image& exact, const DisplayLight& display);
+
 }  // namespace splotchcl

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "finish/white_balance.h"
+#include "finish/tone.h"
 #include "scene/plan/light_structure.h"
 #include "splotchcl/error.h"
 #include "splotchcl_embedded/published_page.h"

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include "image/png_file.h"
+#include "image/picture_encoders.h"
 #include "python/bindings.h"
 #include "python/interface/arrays.h"
 #include "python/progress.h"

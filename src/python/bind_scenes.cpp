@@ -8,7 +8,7 @@
 #include "python/progress.h"
 #include "python/source.h"
 #include "scene_file/file_names.h"
-#include "scene_file/key_names.h"
+#include "scene_file/keys.h"
 #include "scene_file/suggested.h"
 #include "splotchcl/load.h"
 #include "splotchcl/open_scene.h"

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "python/interface/classes.h"
+#include "python/interface/functions.h"
 #include "splotchcl/image.h"
 #include "splotchcl/image_file.h"
 

@@ -1,6 +1,6 @@
-#include "common/shrink_guard.h"
+#include "common/guards.h"
 #include "python/bindings.h"
-#include "python/interface/errors.h"
+#include "python/interface/functions.h"
 #include "python/progress.h"
 #include "python/source.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <type_traits>
 
-#include "common/shrink_guard.h"
+#include "common/guards.h"
 #include "python/interface/casts.h"
 
 namespace splotchcl::python {

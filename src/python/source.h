@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "python/interface/arrays.h"
-#include "python/interface/classes.h"
+#include "python/interface/functions.h"
 #include "splotchcl/array_snapshot.h"
 
 namespace splotchcl::python {

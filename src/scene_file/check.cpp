@@ -9,7 +9,7 @@
 #include <functional>
 #include <set>
 
-#include "scene/picture_limits.h"
+#include "scene/constants.h"
 #include "scene_file/values.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/error.h"

@@ -4,9 +4,8 @@
 #include <array>
 #include <utility>
 
-#include "scene/picture_limits.h"
+#include "scene/constants.h"
 #include "scene_file/key_builder.h"
-#include "scene_file/key_names.h"
 
 namespace splotchcl::scene_file {
 

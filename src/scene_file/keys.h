@@ -41,4 +41,7 @@ std::vector<std::string> names_in_table(const std::string& path);  // "": the to
 // The reference for docs/scene.md, as Markdown.
 std::string key_reference();
 
+// All keys of a scene, "image.width"; "component.palette" stands for that of every component.
+std::vector<std::string> key_names();
+
 }  // namespace splotchcl::scene_file

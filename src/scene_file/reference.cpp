@@ -3,8 +3,8 @@
 #include <map>
 #include <string>
 
+#include "formula/selection.h"
 #include "scene_file/keys.h"
-#include "select/selection.h"
 
 namespace splotchcl::scene_file {
 namespace {

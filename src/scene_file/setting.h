@@ -9,6 +9,14 @@
 // Settings: "key=value" strings, given on the command line as --set.
 namespace splotchcl::scene_file {
 
+// The line, from 1, of the first key in a TOML text that has more parts than any key of ours could
+// have, as in a.a.a.a...; 0: there is none. The parser makes a table inside a table of each part,
+// and what goes through them runs out of stack. The text need not be TOML.
+int find_deep_key(const std::string& text);
+
+// The table that a text is in TOML. Throws toml::parse_error where it is none.
+toml::table parse_toml(const std::string& text);
+
 // A key or table: as the list of keys calls it, and as the user does.
 struct KeyAddress {
   std::string path;   // "component.size.field"

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <sstream>
 
-#include "common/utf8.h"
 #include "common/words.h"
 #include "snapshot/field_names.h"
 

@@ -2,7 +2,8 @@
 
 #include <memory>
 
-#include "snapshot/cached_snapshot.h"
+#include "snapshot/derived_snapshots.h"
+#include "splotchcl/scene.h"
 #include "splotchcl/sequence.h"
 #include "splotchcl/snapshot_source.h"
 
@@ -12,7 +13,15 @@ namespace splotchcl {
 class FilmSnapshots {
  public:
   // As SnapshotSource.
-  std::shared_ptr<const Snapshot> at(const Scene& scene);
+  std::shared_ptr<const Snapshot> at(const Scene& scene) {
+    std::shared_ptr<const Snapshot> snapshot = source_.at(scene);
+    if (scene.time.is_set()) return snapshot;
+    if (single_ != snapshot) {
+      single_ = snapshot;
+      cached_ = std::make_shared<CachedSnapshot>(snapshot);
+    }
+    return cached_;
+  }
   void check(const Scene& scene) { source_.check(scene); }
 
  private:

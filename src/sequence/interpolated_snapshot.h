@@ -4,7 +4,7 @@
 #include <memory>
 #include <mutex>
 
-#include "sequence/snapshot_pair.h"
+#include "sequence/type_path.h"
 
 namespace splotchcl {
 

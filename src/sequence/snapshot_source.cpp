@@ -8,7 +8,7 @@
 #include "parallel/in_background.h"
 #include "sequence/interpolated_snapshot.h"
 #include "sequence/list_sequence.h"
-#include "sequence/snapshot_pair.h"
+#include "sequence/type_path.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/scene.h"

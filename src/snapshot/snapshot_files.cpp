@@ -13,7 +13,7 @@
 #include <set>
 #include <system_error>
 
-#include "common/folders.h"
+#include "common/words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/physical_constants.h"
 #include "common/words.h"
+#include "scene/constants.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 

@@ -1,11 +1,27 @@
 #include "splotchcl/untrusted_file.h"
 
+#include <string>
+
+#include "common/guards.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 #include "splotchcl/snapshot.h"
 #include "untrusted/child_process.h"
 
 namespace splotchcl {
+
+LiveFiles::LiveFiles() {
+  survive_cut_files();
+  cut_before_ = cut_file_count();
+}
+
+void LiveFiles::require_whole() const {
+  if (cut_file_count() == cut_before_) return;
+  throw DataError(std::string(last_cut_file()) +
+                  ": became shorter while it was read; wait until it is completely written and try "
+                  "again");
+}
+
 namespace {
 
 void read_everything(const Snapshot& snapshot) {

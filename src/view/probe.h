@@ -9,6 +9,10 @@
 
 namespace splotchcl::view {
 
+// The place in space of what one sees at a place of the picture, in its pixels: the particle in the
+// middle, by depth, of the matter whose clouds reach there. Nothing where no cloud does.
+std::optional<Vec3> pick_particle(const Frame& frame, double x, double y);
+
 // What the line of sight through a place of a picture meets of one component.
 struct ProbedComponent {
   std::string name;

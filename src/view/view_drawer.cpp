@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "image/png_file.h"
-#include "snapshot/cached_snapshot.h"
+#include "image/picture_encoders.h"
+#include "snapshot/derived_snapshots.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"

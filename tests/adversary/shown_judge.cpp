@@ -1,7 +1,7 @@
 #include "adversary/shown_judge.h"
 
 #include "adversary/trial_frame.h"
-#include "finish/bloom.h"
+#include "finish/effects.h"
 #include "finish/tone.h"
 #include "pictures/other_scenes.h"
 #include "pictures/units_of_white.h"

@@ -2,11 +2,8 @@
 #include <boost/qvm/vec_operations.hpp>
 
 #include "cells/gaussian.h"
-#include "cells/healpix_grid.h"
-#include "cells/picture_of_the_sky.h"
-#include "cells/shares_along_an_axis.h"
-#include "cells/shares_in_shells.h"
 #include "cells/shares_on_the_sky.h"
+#include "cells/sky_grid.h"
 #include "cells/sky_lattice.h"
 #include "scene/constants.h"
 #include "testing.h"

@@ -1,9 +1,7 @@
-#include "common/crash_guard.h"
-
 #include <csignal>
 #include <cstdio>
 
-#include "common/quiet_errors.h"
+#include "common/guards.h"
 #include "common/unfinished_file.h"
 #include "testing.h"
 

@@ -7,7 +7,6 @@
 #include "common/mapped_file.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
-#include "common/unfinished_name.h"
 #include "testing.h"
 
 namespace splotchcl::test {

@@ -1,5 +1,4 @@
-#include "common/utf8.h"
-
+#include "common/words.h"
 #include "testing.h"
 
 namespace splotchcl {

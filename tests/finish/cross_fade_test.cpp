@@ -1,6 +1,6 @@
+#include "finish/effects.h"
 #include "finish/finish_picture.h"
 #include "finish/finish_pictures.h"
-#include "finish/joined_pictures.h"
 #include "pictures/other_scenes.h"
 #include "splotchcl/generate.h"
 #include "splotchcl/picture.h"

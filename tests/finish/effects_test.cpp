@@ -1,9 +1,8 @@
 // Anaglyphs, bloom, and a camera's light.
-#include "finish/bloom.h"
+#include "finish/effects.h"
+
 #include "finish/finish_pictures.h"
-#include "finish/joined_pictures.h"
 #include "finish/tone.h"
-#include "finish/white_balance.h"
 #include "testing.h"
 
 namespace splotchcl::test {

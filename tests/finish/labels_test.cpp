@@ -1,6 +1,5 @@
 #include "finish/finish_pictures.h"
 #include "finish/overlay.h"
-#include "finish/placeholders.h"
 #include "finish/ticks.h"
 #include "image/text.h"
 #include "scene/scalar_map.h"

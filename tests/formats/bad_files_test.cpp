@@ -1,8 +1,7 @@
-
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "common/shrink_guard.h"
+#include "common/guards.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_checks.h"

@@ -1,6 +1,5 @@
 #include "formats/stored_values.h"
 
-#include "formats/position_origin.h"
 #include "formats/snapshot_writer.h"
 #include "scene/particle_columns.h"
 #include "testing.h"

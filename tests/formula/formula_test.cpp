@@ -3,9 +3,9 @@
 
 #include <thread>
 
-#include "formula/formula_functions.h"
 #include "formula/formula_units.h"
 #include "formula/formula_values.h"
+#include "formula/formula_words.h"
 #include "testing.h"
 
 namespace splotchcl::test {

@@ -1,5 +1,5 @@
 #include "finish/finish_pictures.h"
-#include "image/background_image.h"
+#include "image/image_library.h"
 #include "splotchcl/image_file.h"
 #include "testing.h"
 

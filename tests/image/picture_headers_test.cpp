@@ -2,7 +2,6 @@
 
 #include "image/picture_encoders.h"
 #include "image/png_chunks.h"
-#include "image/png_file.h"
 #include "splotchcl/image_file.h"
 #include "testing.h"
 

@@ -1,7 +1,7 @@
 #include "splotchcl/map.h"
 
 #include "map/gas.h"
-#include "snapshot/subset_snapshot.h"
+#include "snapshot/derived_snapshots.h"
 #include "testing.h"
 
 namespace splotchcl::test {

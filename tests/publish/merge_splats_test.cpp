@@ -1,5 +1,4 @@
-#include "publish/merge_splats.h"
-
+#include "publish/light_splats.h"
 #include "publish/packed_splats.h"
 #include "testing.h"
 

@@ -1,8 +1,7 @@
 #include "publish/splat_files.h"
 
 #include "frames/random_frames.h"
-#include "publish/nearest_splats.h"
-#include "publish/viewer_picture.h"
+#include "publish/viewer_splats.h"
 #include "splotchcl/reference.h"
 #include "testing.h"
 

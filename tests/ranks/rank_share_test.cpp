@@ -3,7 +3,7 @@
 
 #include "device/walk/key_slices.h"
 #include "device/walk/relay.h"
-#include "ranks/rank_pass.h"
+#include "ranks/spread_particles.h"
 #include "ranks/thread_ranks.h"
 #include "reference/frames.h"
 #include "testing.h"

@@ -1,5 +1,5 @@
 // Which particles a component draws.
-#include "select/selection.h"
+#include "formula/selection.h"
 
 #include "load/particles.h"
 #include "testing.h"

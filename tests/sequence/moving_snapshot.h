@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sequence/interpolated_snapshot.h"
-#include "sequence/snapshot_pair.h"
+#include "sequence/type_path.h"
 #include "snapshot/memory_snapshot.h"
 
 namespace splotchcl::test {

@@ -2,7 +2,7 @@
 #include "splotchcl/array_snapshot.h"
 
 #include "scene/scalar_map.h"
-#include "snapshot/cached_snapshot.h"
+#include "snapshot/derived_snapshots.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 #include "snapshot/memory_snapshot.h"

@@ -1,6 +1,6 @@
 #include "formats/snapshot_checks.h"
+#include "snapshot/derived_snapshots.h"
 #include "snapshot/memory_snapshot.h"
-#include "snapshot/subset_snapshot.h"
 #include "splotchcl/load.h"
 #include "splotchcl/reference.h"
 #include "splotchcl/scene_file.h"

@@ -3,7 +3,6 @@
 #include "testing.h"
 #include "view/answers.h"
 #include "view/frame_sample.h"
-#include "view/pick.h"
 #include "view/probe.h"
 
 namespace splotchcl::view {

@@ -11,8 +11,8 @@
 #include <new>
 #include <utility>
 
-#include "common/quiet_errors.h"
-#include "common/utf8.h"
+#include "common/guards.h"
+#include "common/words.h"
 #include "film/drawing/tree_choice.h"
 #include "parallel/in_background.h"
 #include "pictures/other_scenes.h"

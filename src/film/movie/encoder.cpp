@@ -15,7 +15,6 @@
 #include <string>
 
 #include "common/child_process.h"
-#include "common/reason.h"
 #include "common/words.h"
 #include "film/movie/codecs.h"
 #include "splotchcl/error.h"

@@ -14,10 +14,9 @@
 #include <utility>
 
 #include "common/file_identity.h"
-#include "common/folders.h"
 #include "common/mapped_file.h"
-#include "common/reason.h"
 #include "common/unfinished_file.h"
+#include "common/words.h"
 #include "film/movie/encoder.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"

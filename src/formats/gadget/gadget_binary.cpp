@@ -5,8 +5,8 @@
 
 #include "formats/gadget/gadget_blocks.h"
 #include "formats/gadget/gadget_header.h"
-#include "formats/position_origin.h"
 #include "formats/snapshot_format.h"
+#include "formats/stored_values.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"

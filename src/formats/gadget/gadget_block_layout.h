@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/mapped_file.h"
 #include "formats/gadget/gadget_header.h"
 #include "formats/stored_values.h"
 
@@ -64,5 +66,26 @@ class BlockLayouts {
 
 // Whether the label is one of those whose length must agree with the header.
 bool is_standard_block(std::string_view label);
+
+// A record between two marks: the label is empty in format 1.
+struct GadgetRecord {
+  std::string label;  // without trailing blanks
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+};
+
+// One file of Gadget format 1 or 2, taken apart but not yet understood.
+struct GadgetBinaryFile {
+  std::shared_ptr<const MappedFile> file;
+  int format = 1;
+  bool is_swapped = false;
+  GadgetHeader header;
+  std::vector<GadgetRecord> records;  // without the header
+};
+
+bool is_gadget_binary(const MappedFile& file);
+
+// Throws DataError when the file is truncated or its record marks disagree.
+GadgetBinaryFile read_gadget_records(std::shared_ptr<const MappedFile> file);
 
 }  // namespace splotchcl

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "formats/gadget/gadget_binary_file.h"
 #include "formats/gadget/gadget_block_layout.h"
 
 namespace splotchcl {

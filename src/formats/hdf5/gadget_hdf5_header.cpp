@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include "common/physical_constants.h"
 #include "formats/hdf5/hdf5_columns.h"
 #include "formats/hdf5/hdf5_units.h"
+#include "scene/constants.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "common/physical_constants.h"
 #include "common/unfinished_file.h"
 #include "formats/hdf5/hdf5_writer.h"
+#include "scene/constants.h"
 
 namespace splotchcl {
 namespace {

@@ -10,7 +10,6 @@
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_file.h"
 #include "formats/text/halo_lists.h"
-#include "formats/text/halo_spheres.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/mapped_file.h"
-#include "formats/position_origin.h"
+#include "formats/stored_values.h"
 #include "parallel/available_memory.h"
 #include "splotchcl/error.h"
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "common/folders.h"
 #include "common/mapped_file.h"
+#include "common/words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

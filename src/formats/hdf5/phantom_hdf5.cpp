@@ -11,7 +11,7 @@
 
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_formats.h"
-#include "formats/position_origin.h"
+#include "formats/stored_values.h"
 #include "formats/unit_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"

@@ -2,7 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
+
+#include "formats/halo_catalog.h"
 
 namespace splotchcl {
 
@@ -14,5 +17,10 @@ bool has_halo_list(const std::filesystem::path& path);
 // identifier, or by its place from 0 where these files have none below 2^31; Rockstar's .particles,
 // all of a catalog in several, by external_haloid. Throws DataError.
 std::vector<std::uint64_t> read_halo_list(const std::filesystem::path& path, std::uint64_t number);
+
+// Where a halo is and how far it reaches, by its identifier in lists of haloes that do not say
+// which particles they have: Rockstar's out_*.list and .ascii, AHF's AHF_halos. None where the list
+// has no such halo, or is another text. Throws DataError for damaged ones.
+std::optional<HaloSphere> read_halo_sphere(const std::filesystem::path& path, std::uint64_t number);
 
 }  // namespace splotchcl

@@ -8,12 +8,10 @@
 #include <string_view>
 #include <utility>
 
-#include "formats/flat_table.h"
-#include "formats/renamed_table.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
-#include "formats/table_steps.h"
+#include "formats/table_views.h"
 #include "formats/text/table_layout.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <optional>
 
-#include "formats/position_origin.h"
 #include "formats/snapshot_format.h"
 #include "formats/stored_values.h"
 #include "formats/tipsy/tipsy_arrays.h"

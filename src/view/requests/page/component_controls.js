@@ -2,8 +2,7 @@
 import {ClipControls} from './clip_controls.js';
 import {button, checkbox, element, group, more, row, select, textInput, wide} from './elements.js';
 import {numberInput} from './number_input.js';
-import {PaletteList} from './palette_list.js';
-import {drawStrip} from './palettes.js';
+import {PaletteList, drawStrip} from './palettes.js';
 import {RangeControl} from './range_control.js';
 import {readable} from './scaling.js';
 

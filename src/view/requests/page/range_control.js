@@ -1,8 +1,34 @@
 // The range of a component's color field: two handles on its histogram, and their numbers.
 import {button, element, row, wide} from './elements.js';
 import {numberInput} from './number_input.js';
-import {drawHistogram} from './histogram.js';
+import {colorAt} from './palettes.js';
 import {readable, rounded, scaled, unscaled} from './scaling.js';
+
+// Bars of the histogram of a range control, in the colors that their values have in the picture.
+function drawHistogram(canvas, range) {
+  const context = canvas.getContext('2d');
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  if (!range.histogram) return;
+  const {minimum, maximum, counts} = range.histogram;
+  // Few particles in a bin are seen beside many.
+  const highest = Math.log1p(Math.max(...counts));
+  const low = scaled(minimum, range.scaling), high = scaled(maximum, range.scaling);
+  const {low: start, high: end} = range.span;
+  const from = scaled(range.value('min') ?? minimum, range.scaling);
+  const to = scaled(range.value('max') ?? maximum, range.scaling);
+  const across = (place) => (place - start) / (end - start) * canvas.width;
+  const binWidth = (high - low) / counts.length;
+  counts.forEach((count, i) => {
+    const place = low + i * binWidth;
+    const height = highest > 0 ? Math.log1p(count) / highest * (canvas.height - 2) : 0;
+    const share = (place + binWidth / 2 - from) / (to - from);
+    context.fillStyle = share < 0 || share > 1 ? '#8888' : colorAt(range.colors(), share);
+    context.fillRect(across(place), canvas.height - height,
+                     Math.max(1, across(place + binWidth) - across(place) - 0.5), height);
+  });
+  context.fillStyle = getComputedStyle(canvas).color;
+  for (const place of [from, to]) context.fillRect(across(place) - 0.5, 0, 1, canvas.height);
+}
 
 const steps = 1000;
 

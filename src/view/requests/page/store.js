@@ -1,4 +1,4 @@
-import {changeName} from './step_names.js';
+import {nameOfKey} from './film_keys.js';
 
 // The state of the page: a value for each key of the scene that the page may set, and which
 // components are off. null: left to the data. Keeps what undo needs.
@@ -7,6 +7,17 @@ const sameGestureMilliseconds = 700;
 
 const copyOf = ({settings, hidden, added, keyframes}) => ({settings: {...settings}, hidden, added, keyframes});
 const isEqual = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+// What a step of undo is called: by what two states do not have in common.
+function changeName(a, b, components) {
+  if (!isEqual(a.added, b.added)) return 'components';
+  if (!isEqual(a.hidden, b.hidden)) return 'what is shown';
+  if (!isEqual(a.keyframes, b.keyframes)) return 'keyframes';
+  const keys = Object.keys({...a.settings, ...b.settings}).filter((key) => !isEqual(a.settings[key], b.settings[key]));
+  if (keys.length > 0 && keys.every((key) => key.startsWith('camera.'))) return 'camera';
+  const names = [...new Set(keys.map((key) => nameOfKey(key, components)))];
+  return names.length > 2 ? `${names.length} settings` : names.join(', ');
+}
 
 export class Store extends EventTarget {
   constructor(opened, kept) {
