@@ -6,7 +6,10 @@
 #include "device/opencl/launch.h"
 
 namespace splotchcl {
+namespace {
 
+// What of the sorted splats is left from place `first` on, in its order, to the first slots of
+// `keyed`, with keys of 0.
 void carry_splats(const StageContext& context, const SortedSplats& sorted, std::uint32_t first,
                   const KeyedSplats& keyed) {
   DeviceContext& device = context.device;
@@ -30,6 +33,8 @@ void carry_splats(const StageContext& context, const SortedSplats& sorted, std::
   if (variant.extended)
     copy(sorted.splats.extended, keyed.splats.extended, variant.extended_splat_bytes());
 }
+
+}  // namespace
 
 std::vector<std::uint64_t> sort_keys_up_to(const StageContext& context, const KeyedSplats& keyed,
                                            std::uint64_t last) {
