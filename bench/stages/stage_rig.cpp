@@ -24,14 +24,14 @@ void StageRig::project() {
 
 CountedSplats StageRig::count() {
   if (!plan_.needs_sort()) return pipeline_.binner().count(blocks_);
-  return pipeline_.binner().count(sorted_, splat_chunks(sorted_.count, device_.traits).front());
+  return pipeline_.binner().count(sorted_, splat_chunks(sorted_.count, 0, device_.traits).front());
 }
 
 std::uint32_t StageRig::prepare_lists() {
   std::uint32_t splats = 0;
   if (plan_.needs_sort()) {
     sorted_ = pipeline_.sorter().sort(pipeline_.project_all());
-    splats = splat_chunks(sorted_.count, device_.traits).front().count;
+    splats = splat_chunks(sorted_.count, 0, device_.traits).front().count;
   } else {
     project_chunk();
     const ParticleChunk chunk = pipeline_.particle_chunks().front();

@@ -29,18 +29,6 @@ static inline void fill_rows(float* values, const Window* window, __global const
   }
 }
 
-// As in splat_rows.cl.
-#if LIGHT_ORDERED
-static inline int form_of_splat(__global const TileSplat* splat, const SplatTile* of_tile,
-                                float* depth_of_block, const CompositeParameters* p) {
-  const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2]));
-  *depth_of_block += deepest;
-  return form_of_layer(deepest, *depth_of_block, p);
-}
-#else
-#define form_of_splat(splat, of_tile, depth_of_block, p) 0
-#endif
-
 static inline void add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
                              const SplatTile* of_tile, int form) {
   float values[8 * TILE_HEIGHT];

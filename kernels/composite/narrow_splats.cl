@@ -34,7 +34,7 @@
 #define WHOLE_WINDOW SEVEN
 #endif
 
-// Kinds of a group (entry_group.cl), by their pixels.
+// Kinds of a group (summed_list.cl), by their pixels.
 #define SMALLEST GRAIN
 #define SMALL SEVEN
 typedef struct NarrowSplats {

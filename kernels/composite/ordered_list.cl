@@ -2,6 +2,7 @@
 #include "kernels/bin/bin.h"
 #include "kernels/bin/entry_lanes.cl"
 #include "kernels/common/common.cl"
+#include "kernels/common/ellipse.h"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/composite/clouds.cl"
@@ -145,6 +146,17 @@ INLINED void find_layers(__global const TileSplat* entries, float mean_sigma, La
 #endif
 }
 
+// How a splat's layer is computed. Of the splats of a block up to this one, `depth_of_block` is the
+// most that their depths come to.
+INLINED int form_of_splat(__global const TileSplat* splat, float mean_sigma, float* depth_of_block,
+                          const CompositeParameters* p) {
+  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
+  const float deepest = max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
+                        (sigma < mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
+  *depth_of_block += deepest;
+  return form_of_layer(deepest, *depth_of_block, p);
+}
+
 // Whether the entry touches the tile: lists have splats that do not, too (splat.h), and those of a
 // crop other ones.
 INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entry,
@@ -157,7 +169,7 @@ INLINED int draw_layer(const BlockOfLayers block, __global const TileSplat* entr
   const int2 rows = rows_of_entry(&batch->windows, in_batch);
   const int2 columns = columns_of_entry(&batch->windows, in_batch);
   if (rows.x > rows.y || columns.x > columns.y) return 0;
-  const int form = form_of_splat(entry, block.of_tile, block.depth, p);
+  const int form = form_of_splat(entry, block.mean_sigma, block.depth, p);
   if (let_wait_if_it_does(block.tile, block.waiting, rows, columns, entry, block.mean_sigma, form))
     return 1;
 #ifdef NARROW_SPLATS

@@ -1,5 +1,5 @@
 // Patches: rectangles of a tile that stay in registers while splats are added to them
-// (patches.cl). A splat is a bit of a word.
+// (waiting.cl). A splat is a bit of a word.
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/composite/rows.cl"

@@ -1,4 +1,4 @@
-// Splats whose shapes along the axes of a tile are worked out patch by patch (patches.cl): only
+// Splats whose shapes along the axes of a tile are worked out patch by patch (waiting.cl): only
 // along those that they reach into.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"

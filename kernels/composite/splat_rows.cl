@@ -126,22 +126,6 @@ static inline void add_wide_splat(float* tile, __global const TileSplat* splat, 
 #define DRAWN_ROWS(count) ((count) <= FEW_ROWS ? FEW_ROWS : 7)
 #endif
 
-// How a splat's layer is computed. Of the splats of a block up to this one, `depth_of_block` is the
-// most that their depths come to.
-#if LIGHT_ORDERED
-static inline int form_of_splat(__global const TileSplat* splat, const SplatTile* of_tile,
-                                float* depth_of_block, const CompositeParameters* p) {
-  const float sigma = splat->sigma, sigma_x = SIGMA_X(*splat);
-  const float deepest =
-      max(splat->absorption[0], max(splat->absorption[1], splat->absorption[2])) *
-      (sigma < of_tile->mean_sigma ? min(1.0f, 3.15f * fabs(sigma * sigma_x)) : 1.0f);
-  *depth_of_block += deepest;
-  return form_of_layer(deepest, *depth_of_block, p);
-}
-#else
-#define form_of_splat(splat, of_tile, depth_of_block, p) 0
-#endif
-
 // Draws a splat that touches these rows and columns of the tile.
 static inline void add_splat(float* tile, __global const TileSplat* splat, int2 rows, int2 columns,
                              const SplatTile* of_tile, int form) {

@@ -50,28 +50,54 @@ INLINED MemberLanes find_members(uint begin, const InterpolateParameters p,
   return of;
 }
 
-// Of particles from `begin` on; those at or beyond `end` have the last one's value.
-INLINED VALUE load_component(__global const float* values, uint begin, uint end, uint width,
-                             uint component, int stride) {
+// Values of LANES particles as memory holds them, in as many parts of LANES as a particle has
+// values, one or three: lane l of part k is value (k LANES + l) % width of particle (k LANES + l) /
+// width.
+#define PLACE_IN_PARTS(part, lane) ((part)*LANES + (lane))
+
+// Masks of particles for their values in a part.
+INLINED INTEGER particles_in_part(INTEGER mask, uint width, uint part) {
+#ifdef LANES_8
+  if (width == 1) return mask;
+  if (part == 0) return mask.s00011122;
+  return part == 1 ? mask.s23334445 : mask.s55666777;
+#else
+  return mask;
+#endif
+}
+
+INLINED MemberLanes members_in_part(const MemberLanes of, uint width, uint part) {
+  MemberLanes in_part;
+  in_part.in_first = particles_in_part(of.in_first, width, part);
+  in_part.in_second = particles_in_part(of.in_second, width, part);
+  return in_part;
+}
+
+// Those of particles from `begin` on; at or beyond `end` they are the last one's.
+INLINED VALUE load_part(__global const float* values, uint begin, uint end, uint width, uint part,
+                        int stride) {
   if (stride == 0 || end == 0) return (VALUE)(values[0]);
-  if (width == 1 && begin + LANES <= end) return LOAD(values + begin);
+  if (begin + LANES <= end) return LOAD(values + ((size_t)begin * width + part * LANES));
   float found[LANES];
-  for (uint k = 0; k < LANES; ++k)
-    found[k] = values[(size_t)min(begin + k, end - 1) * width + component];
+  for (uint l = 0; l < LANES; ++l) {
+    const uint place = PLACE_IN_PARTS(part, l);
+    found[l] = values[(size_t)min(begin + place / width, end - 1) * width + place % width];
+  }
   return LOAD(found);
 }
 
-INLINED void write(VALUE between, uint begin, uint width, uint component, uint particles,
-                   __global float* values) {
-  if (width == 1 && begin + LANES <= particles) {
-    STORE(between, values + begin);
+INLINED void write_part(VALUE between, uint begin, uint width, uint particles, uint part,
+                        __global float* values) {
+  __global float* to = values + ((size_t)begin * width + part * LANES);
+  if (begin + LANES <= particles) {
+    STORE(between, to);
     return;
   }
   float found[LANES];
   STORE(between, found);
-  const uint count = min((uint)LANES, particles - begin);
-  for (uint k = 0; k < count; ++k)
-    values[(size_t)(begin + k) * width + component] = found[k];
+  for (uint l = 0; l < LANES; ++l) {
+    if (begin + PLACE_IN_PARTS(part, l) / width < particles) to[l] = found[l];
+  }
 }
 
 // floor() is a call on PoCL.
@@ -147,14 +173,13 @@ static inline VALUE of_members(VALUE both, VALUE vanishing, VALUE appearing, con
   return choose(appearing, choose(vanishing, both, of.in_second), of.in_first);
 }
 
-INLINED VALUE value_between(uint i, const InterpolateParameters p, const MemberLanes of,
-                            uint component, __global const float* first,
-                            __global const float* second) {
-  const VALUE a = load_component(first, i, p.in_first, p.width, component, p.first_stride);
-  const VALUE b = load_component(second, i, p.particles, p.width, component, p.second_stride);
+INLINED VALUE value_between(uint i, const InterpolateParameters p, const MemberLanes of, uint part,
+                            __global const float* first, __global const float* second) {
+  const VALUE a = load_part(first, i, p.in_first, p.width, part, p.first_stride);
+  const VALUE b = load_part(second, i, p.particles, p.width, part, p.second_stride);
   const VALUE both =
       p.logarithmic ? geometric_mean_of(a, b, p.fraction) : mean_of(a, b, p.fraction);
-  return of_members(both, a * p.vanishing, b * p.appearing, of);
+  return of_members(both, a * p.vanishing, b * p.appearing, members_in_part(of, p.width, part));
 }
 
 // `second` as order_second() has it.
@@ -165,14 +190,11 @@ __kernel void interpolate_values(const InterpolateParameters p, __global const f
   const uint end = (uint)min(begin + p.particles_of_item, (size_t)p.particles);
   for (uint i = (uint)min(begin, (size_t)p.particles); i < end; i += LANES) {
     const MemberLanes of = find_members(i, p, place_in_second);
-    for (uint k = 0; k < p.width; ++k)
-      write(value_between(i, p, of, k, first, second), i, p.width, k, p.particles, values);
+    for (uint part = 0; part < p.width; ++part)
+      write_part(value_between(i, p, of, part, first, second), i, p.width, p.particles, part,
+                 values);
   }
 }
-
-// Coordinates of LANES particles as memory holds them, in three parts of LANES: lane l of part k is
-// axis (k LANES + l) % 3 of particle (k LANES + l) / 3.
-#define COORDINATE(part, lane) ((part)*LANES + (lane))
 
 // What holds for an axis, in the lanes of a part.
 typedef struct PathAxes {
@@ -182,7 +204,7 @@ typedef struct PathAxes {
 INLINED VALUE axes_in_part(const float* of_axes, uint part) {
   float found[LANES];
   for (uint l = 0; l < LANES; ++l)
-    found[l] = of_axes[COORDINATE(part, l) % 3];
+    found[l] = of_axes[PLACE_IN_PARTS(part, l) % 3];
   return LOAD(found);
 }
 
@@ -193,42 +215,6 @@ INLINED PathAxes axes_of_part(const PathParameters path, uint part) {
   axes.lower = axes_in_part(path.lower, part);
   axes.upper = axes_in_part(path.upper, part);
   return axes;
-}
-
-// Masks of particles for their coordinates in a part.
-INLINED INTEGER particles_in_part(INTEGER mask, uint part) {
-#ifdef LANES_8
-  if (part == 0) return mask.s00011122;
-  return part == 1 ? mask.s23334445 : mask.s55666777;
-#else
-  return mask;
-#endif
-}
-
-// Those of particles from `begin` on; at or beyond `end` they are the last one's.
-INLINED VALUE load_part(__global const float* values, uint begin, uint end, uint part, int stride) {
-  if (stride == 0 || end == 0) return (VALUE)(values[0]);
-  if (begin + LANES <= end) return LOAD(values + ((size_t)begin * 3 + part * LANES));
-  float found[LANES];
-  for (uint l = 0; l < LANES; ++l) {
-    const uint coordinate = COORDINATE(part, l);
-    found[l] = values[(size_t)min(begin + coordinate / 3, end - 1) * 3 + coordinate % 3];
-  }
-  return LOAD(found);
-}
-
-INLINED void write_part(VALUE between, uint begin, uint particles, uint part,
-                        __global float* values) {
-  __global float* to = values + ((size_t)begin * 3 + part * LANES);
-  if (begin + LANES <= particles) {
-    STORE(between, to);
-    return;
-  }
-  float found[LANES];
-  STORE(between, found);
-  for (uint l = 0; l < LANES; ++l) {
-    if (begin + COORDINATE(part, l) / 3 < particles) to[l] = found[l];
-  }
 }
 
 static inline VALUE less_periods(VALUE x, VALUE periods, const PathParameters path) {
@@ -252,17 +238,15 @@ typedef struct PathColumns {
 INLINED VALUE positions_between(uint i, const InterpolateParameters p, const PathParameters path,
                                 const MemberLanes particles, uint part, const PathAxes axes,
                                 const PathColumns columns) {
-  MemberLanes of;
-  of.in_first = particles_in_part(particles.in_first, part);
-  of.in_second = particles_in_part(particles.in_second, part);
-  const VALUE x = load_part(columns.first, i, p.in_first, part, p.first_stride);
-  const VALUE y = load_part(columns.second, i, p.particles, part, p.second_stride);
+  const MemberLanes of = members_in_part(particles, 3, part);
+  const VALUE x = load_part(columns.first, i, p.in_first, 3, part, p.first_stride);
+  const VALUE y = load_part(columns.second, i, p.particles, 3, part, p.second_stride);
   // Without velocities their columns hold one 0.
   const VALUE m =
-      load_part(columns.first_velocity, i, p.in_first, part, path.first_velocity_stride) *
+      load_part(columns.first_velocity, i, p.in_first, 3, part, path.first_velocity_stride) *
       path.first_rate;
   const VALUE n =
-      load_part(columns.second_velocity, i, p.particles, part, path.second_velocity_stride) *
+      load_part(columns.second_velocity, i, p.particles, 3, part, path.second_velocity_stride) *
       path.second_rate;
   VALUE way = ((y - x) + axes.shift_high) + axes.shift_low;
   if (path.is_periodic) {
@@ -293,11 +277,11 @@ __kernel void interpolate_positions(const InterpolateParameters p, const PathPar
                  third_part = axes_of_part(path, 2);
   for (uint i = (uint)min(begin, (size_t)p.particles); i < end; i += LANES) {
     const MemberLanes of = find_members(i, p, place_in_second);
-    write_part(positions_between(i, p, path, of, 0, first_part, columns), i, p.particles, 0,
+    write_part(positions_between(i, p, path, of, 0, first_part, columns), i, 3, p.particles, 0,
                values);
-    write_part(positions_between(i, p, path, of, 1, second_part, columns), i, p.particles, 1,
+    write_part(positions_between(i, p, path, of, 1, second_part, columns), i, 3, p.particles, 1,
                values);
-    write_part(positions_between(i, p, path, of, 2, third_part, columns), i, p.particles, 2,
+    write_part(positions_between(i, p, path, of, 2, third_part, columns), i, 3, p.particles, 2,
                values);
   }
 }

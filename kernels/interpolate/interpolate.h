@@ -6,7 +6,7 @@ struct InterpolateParameters {
   unsigned int in_first;            // particles of the first snapshot
   unsigned int particles;           // those and the ones that appear
   unsigned int particles_of_item;   // per work-item
-  unsigned int width;               // values per particle
+  unsigned int width;               // values per particle, 1 or 3
   int first_stride, second_stride;  // 0 where one value serves all
   int logarithmic;
   float fraction;

@@ -1,13 +1,27 @@
-// Which particles are around the camera, and how deep.
+// Which particles are around the camera, and by which keys they are sorted.
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/project/around.cl"
 #include "kernels/project/depth_key.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"
+#include "kernels/project/sort_keys.cl"
 #include "kernels/project/view.cl"
 
 #pragma OPENCL FP_CONTRACT OFF
+
+// A key that no splat has, of particles beyond the limits that the scene sets.
+#define BEYOND_LIMITS (1UL << 48)
+
+INLINED UNSIGNED_WIDE keys_within_limits(const Columns columns, uint i, uint end,
+                                         const ParticleLanes particles, const ProjectParameters p) {
+  const UNSIGNED_WIDE depth = depth_of(particles.position, p.depth_key).key;
+  const INTEGER within =
+      TO_INTEGER(depth >= (UNSIGNED_WIDE)((ulong)wide_integer(p.depth_key.near_key))) &
+      TO_INTEGER(depth <= (UNSIGNED_WIDE)((ulong)wide_integer(p.depth_key.far_key)));
+  return choose_wide((UNSIGNED_WIDE)(BEYOND_LIMITS),
+                     sort_keys_of(columns, i, end, particles.sort_field, p), within);
+}
 
 KERNEL_BODY void list_block(const ProjectParameters* of_frame, const Columns* of_particles,
                             uint block, __global uint* listed, uint capacity) {
@@ -24,7 +38,7 @@ KERNEL_BODY void list_block(const ProjectParameters* of_frame, const Columns* of
     int is_around[LANES];
     STORE(around, is_around);
     long keys[LANES];
-    STORE(AS_WIDE(depth_of(particles.position, p.depth_key).key), keys);
+    STORE(AS_WIDE(keys_within_limits(columns, i, end, particles, p)), keys);
     for (uint k = 0; k < LANES; ++k) {
       if (!is_around[k]) continue;
       const uint place = atomic_inc(&listed[0]) + 1;
@@ -38,8 +52,8 @@ KERNEL_BODY void list_block(const ProjectParameters* of_frame, const Columns* of
 }
 
 // Work-item: one of the blocks of particles that `blocks` numbers. `listed[0]` counts them, and
-// three words each from listed[3] on take a particle and the low and the high word of its depth's
-// key, in any order.
+// three words each from listed[3] on take a particle and the low and the high word of its key, in
+// any order.
 __kernel void list_around(const ProjectParameters p, __global const float* positions,
                           __global const float* smoothing_lengths, __global const float* weights,
                           __global const float* colors, __global const float* intensities,

@@ -85,10 +85,7 @@ Response of_ordered(double light, const Behind& behind) {
           std::max(1 + taken_of_1, 1 / behind.expected)};
 }
 
-struct BlockRanges {
-  std::array<Range, 3> channels;
-  double opacity = 0;  // the largest alpha
-};
+using BlockRanges = std::array<Range, 3>;
 
 BlockRanges ranges_of(const Image& image, int x0, int y0) {
   constexpr int side = BlockErrors::block_pixels;
@@ -105,16 +102,8 @@ BlockRanges ranges_of(const Image& image, int x0, int y0) {
   }
   BlockRanges ranges;
   for (std::size_t c = 0; c < 3; ++c)
-    ranges.channels[c] = {static_cast<double>(least[c]), static_cast<double>(most[c])};
-  ranges.opacity = static_cast<double>(most[3]);
+    ranges[c] = {static_cast<double>(least[c]), static_cast<double>(most[c])};
   return ranges;
-}
-
-// The deepest channel of a block of which only alpha is known, the mean of three.
-double deepest_by_alpha(double opacity) {
-  constexpr double deepest_of_floats = 88;
-  const double passed = 1 - 3 * opacity;
-  return passed > 0 ? -std::log(passed) : deepest_of_floats;
 }
 
 // What all blocks of a picture share.
@@ -126,7 +115,7 @@ struct Surroundings {
 
 Response response_of(const BlockRanges& ranges, std::size_t channel, const Surroundings& around,
                      const Behind& behind) {
-  const Range& light = ranges.channels[channel];
+  const Range& light = ranges[channel];
   if (around.light == LightPlan::emission) return of_emission(light);
   if (around.light == LightPlan::ordered) return of_ordered(light.most, behind);
   const double source = around.source[channel];
@@ -144,8 +133,8 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around, const
     block.layers = std::max(block.layers, response.layers);
     block.behind = std::max(block.behind, response.behind);
     block.relative = std::max(block.relative, response.relative);
-    block.most = std::max(block.most, ranges.channels[c].most);
-    least = std::min(least, ranges.channels[c].least);
+    block.most = std::max(block.most, ranges[c].most);
+    least = std::min(least, ranges[c].least);
   }
   block.allowed = std::max(1.0, least);
   return block;
@@ -156,6 +145,7 @@ BlockLight light_of(const BlockRanges& ranges, const Surroundings& around, const
 PictureLight measure_light(const Image& image, const std::vector<float>& depths, const Frame& frame,
                            const FramePlan& plan) {
   constexpr int side = BlockErrors::block_pixels;
+  constexpr double deepest_of_floats = 88;
   PictureLight picture;
   picture.columns = BlockErrors::blocks_along(image.width);
   picture.rows = BlockErrors::blocks_along(image.height);
@@ -168,8 +158,7 @@ PictureLight measure_light(const Image& image, const std::vector<float>& depths,
     for (std::size_t b = first; b < last; ++b) {
       const BlockRanges ranges = ranges_of(image, static_cast<int>(b % columns) * side,
                                            static_cast<int>(b / columns) * side);
-      const double depth =
-          depths.empty() ? deepest_by_alpha(ranges.opacity) : static_cast<double>(depths[b]);
+      const double depth = depths.empty() ? deepest_of_floats : static_cast<double>(depths[b]);
       picture.blocks[b] = light_of(ranges, around, {depth, brightest, plan.light_behind});
     }
   });

@@ -27,7 +27,7 @@ struct PictureLight {
   std::vector<BlockLight> blocks;
 };
 
-// `depths`: of the deepest channel of each block; where there are none, what alpha says of it.
+// `depths`: of the deepest channel of each block; where there are none, any.
 PictureLight measure_light(const Image& image, const std::vector<float>& depths, const Frame& frame,
                            const FramePlan& plan);
 

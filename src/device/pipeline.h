@@ -10,7 +10,6 @@
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
 #include "device/ranks/light_transfer.h"
-#include "device/ranks/lone_rank.h"
 #include "device/ranks/rank_work.h"
 #include "device/stages/binner.h"
 #include "device/stages/certifier.h"

@@ -227,28 +227,16 @@ class SmoothPicture::Nodes {
     const int y = fine.y_.pixel(row);
     const Rectangle seen = looked_at(settings);
     if (y < seen.y || y >= seen.y + seen.height) return 0;
-    std::vector<double> foretold(channels_);
+    std::vector<double> foretold(channels_), here(static_cast<std::size_t>(x_.count) * channels_);
+    interpolate_row(y, here);
     double largest = 0;
     for (int column = 0; column < fine.x_.count; ++column) {
       const int x = fine.x_.pixel(column);
       if (x < seen.x || x >= seen.x + seen.width || node_at(x, y)) continue;
-      interpolate(x, y, foretold.data());
+      interpolate_between(here, x_.base(x), x_.phase(x), 1, foretold.data(), 1);
       largest = std::max(largest, settings.error_of(fine.at(column, row), foretold.data()));
     }
     return largest;
-  }
-
-  void interpolate(int x, int y, double* channels) const {
-    const int column = x_.base(x), row = y_.base(y);
-    std::fill_n(channels, channels_, 0.0);
-    for (int k = 0; k < taps; ++k) {
-      for (int i = 0; i < taps; ++i) {
-        const double weight = weight_of(k, y_.phase(y)) * weight_of(i, x_.phase(x));
-        const double* node = at(column + i, row + k);
-        for (std::size_t c = 0; c < channels_; ++c)
-          channels[c] += weight * node[c];
-      }
-    }
   }
 
   Axis x_, y_;

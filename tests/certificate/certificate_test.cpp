@@ -272,17 +272,6 @@ TEST_F(CertificateTest, CountsTheSeriesOfLayersByTheLightThatTheyShowIn) {
   EXPECT_NEAR(of_layers(1, 88), part, 1e-8);
 }
 
-// Alpha is a mean of three channels, of which one may hide all that the others show.
-TEST_F(CertificateTest, TakesOneChannelForAsOpaqueAsAlphaAllows) {
-  frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
-  plan_ = make_plan(frame_);
-  const auto of_layers = [&](double opacity) {
-    return certify({}, even_picture(0.05, opacity), frame_, plan_).worst.rest;
-  };
-  EXPECT_LT(of_layers(0.3), of_layers(0.33));
-  EXPECT_EQ(of_layers(0.34), of_layers(1));
-}
-
 TEST_F(CertificateTest, AsksForMoreTermsOfThePhiOfLayersInALightPicture) {
   frame_.components.front().absorption = {Absorption::Kind::gray, 1e6};
   frame_.kernel.cut = 2.0;

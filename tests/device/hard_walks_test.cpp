@@ -6,7 +6,7 @@
 namespace splotchcl::test {
 namespace {
 
-// Patches of sixteen columns and sixteen particles at a time (kernels/composite/patches.cl,
+// Patches of sixteen columns and sixteen particles at a time (kernels/composite/waiting.cl,
 // kernels/common/lanes.cl), on processors of any width.
 
 // Drawn with the frame's first plan.

@@ -115,8 +115,8 @@ class Stages {
     if (plan_.needs_sort()) {
       project();
       sort();
-      counted_ =
-          pipeline_->binner().count(sorted_, splat_chunks(sorted_.count, device_.traits).front());
+      counted_ = pipeline_->binner().count(sorted_,
+                                           splat_chunks(sorted_.count, 0, device_.traits).front());
     } else {
       blocks_ = pipeline_->project(pipeline_->particle_chunks().front());
       counted_ = pipeline_->binner().count(blocks_);

@@ -59,7 +59,7 @@ class Turning {
 };
 
 // PoCL 3.1 ends the program, in most runs of this, where these are queues of their own
-// (device_queue.h): while the first one keeps its threads busy, it begins a kernel twice for some
+// (device_context.h): while the first one keeps its threads busy, it begins a kernel twice for some
 // work-groups and then for one more, and counts all that end as users of the last.
 TEST(Threads, RunOneKernelForMoreAndMoreGroupsAtTheSameTime) {
   Turning busy, first, second, larger;

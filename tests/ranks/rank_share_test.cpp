@@ -117,7 +117,7 @@ TEST(SliceParts, CoverAllChunksOnce) {
     std::uint64_t total = 0;
     for (const std::uint64_t size : sizes)
       total += size;
-    const std::vector<SplatChunk> chunks = splat_chunks(total, small_sizes());
+    const std::vector<SplatChunk> chunks = splat_chunks(total, 0, small_sizes());
     std::size_t next = 0;
     std::uint32_t passed_on = 0;
     KeySlice slice;

@@ -27,12 +27,8 @@ std::uint32_t equal_length(std::uint64_t count, std::uint32_t longest) {
 
 }  // namespace
 
-std::vector<SplatChunk> splat_chunks(std::uint64_t count, const DeviceTraits& traits) {
-  return cut(count, traits.sorted_chunk);
-}
-
 std::vector<SplatChunk> splat_chunks(std::uint64_t count, int slabs, const DeviceTraits& traits) {
-  if (slabs < 1) return splat_chunks(count, traits);
+  if (slabs < 1) return cut(count, traits.sorted_chunk);
   const auto parts = static_cast<std::uint64_t>(slabs);
   const auto start_of = [&](std::uint64_t slab) { return count * slab / parts; };
   std::vector<SplatChunk> chunks;

@@ -53,8 +53,7 @@ struct SplatChunk {
   std::uint32_t count = 0;
   bool ends_slab = false;  // FramePlan::slabs
 };
-std::vector<SplatChunk> splat_chunks(std::uint64_t count, const DeviceTraits& traits);
-// The same in slabs of as many splats each, which chunks do not cross.
+// In slabs of as many splats each, which chunks do not cross; 0: in none.
 std::vector<SplatChunk> splat_chunks(std::uint64_t count, int slabs, const DeviceTraits& traits);
 
 // Entries that lists of a band of the picture have room for. One tile may have all splats of a

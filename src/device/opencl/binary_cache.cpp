@@ -1,5 +1,8 @@
 #include "device/opencl/binary_cache.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -13,12 +16,6 @@
 #include <utility>
 
 #include "scene/hash.h"
-
-#if defined(__unix__) || defined(__APPLE__)
-#include <sys/stat.h>
-#include <unistd.h>
-#define SPLOTCHCL_HAS_POSIX_FILES
-#endif
 
 namespace splotchcl {
 namespace {
@@ -85,11 +82,7 @@ std::string text_in(const std::filesystem::path& path, const std::string& key) {
 void make_own_folder(const std::filesystem::path& folder) {
   std::error_code ignored;
   if (folder.has_parent_path()) std::filesystem::create_directories(folder.parent_path(), ignored);
-#ifdef SPLOTCHCL_HAS_POSIX_FILES
   ::mkdir(folder.c_str(), S_IRWXU);
-#else
-  std::filesystem::create_directory(folder, ignored);
-#endif
 }
 
 // What processes that were killed left unfinished of this file. To write one takes no hour.
@@ -121,7 +114,6 @@ std::optional<std::filesystem::path> BinaryCache::user_folder() {
 
 // What is run from a folder that someone else may write to is theirs, not ours.
 std::string BinaryCache::distrust(const std::filesystem::path& folder) {
-#ifdef SPLOTCHCL_HAS_POSIX_FILES
   struct stat status = {};
   const std::string what = "the cache of compiled kernels is not used: " + folder.string();
   if (stat(folder.c_str(), &status) != 0) {
@@ -132,7 +124,6 @@ std::string BinaryCache::distrust(const std::filesystem::path& folder) {
   if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0) {
     return what + " may be written to by others; chmod go-w mends that";
   }
-#endif
   return {};
 }
 

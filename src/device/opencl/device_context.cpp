@@ -1,8 +1,26 @@
 #include "device/opencl/device_context.h"
 
+#include <map>
+
+#include "device/opencl/program_text.h"
+#include "device/opencl/runtime_lock.h"
 #include "parallel/available_memory.h"
 
 namespace splotchcl {
+
+DeviceQueue::DeviceQueue(const compute::device& device)
+    : context(device), queue(context, device, compute::command_queue::enable_profiling) {}
+
+std::shared_ptr<DeviceQueue> open_queue(const compute::device& device) {
+  const auto lock = lock_runtime();
+  if (!is_pocl_processor(device)) return std::make_shared<DeviceQueue>(device);
+  static std::map<cl_device_id, std::weak_ptr<DeviceQueue>> queues;
+  std::weak_ptr<DeviceQueue>& known = queues[device.id()];
+  std::shared_ptr<DeviceQueue> shared = known.lock();
+  if (!shared) known = shared = std::make_shared<DeviceQueue>(device);
+  return shared;
+}
+
 // A processor shares its memory with files that are mapped and with other programs, a GPU with
 // the particles' columns.
 DeviceMemory memory_of(const compute::device& device, const DeviceTraits& traits) {

@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "device/opencl/buffer_pool.h"
-#include "device/opencl/device_queue.h"
 #include "device/opencl/device_traits.h"
-#include "device/opencl/launch_record.h"
 #include "device/opencl/opencl.h"
 #include "device/opencl/program_cache.h"
 #include "device/opencl/stage_timer.h"
@@ -22,6 +20,22 @@ compute::device choose_device(const std::string& part_of_name, int which = 0);
 // Its platform's name and its own, of which users may write a part.
 std::string full_name_of(const compute::device& device);
 
+// Where commands of a device run: in order, and their times are noted.
+struct DeviceQueue {
+  explicit DeviceQueue(const compute::device& device);
+
+  compute::context context;
+  compute::command_queue queue;
+};
+
+// A queue of the caller's own; on PoCL's processors, one that the process shares for as long as
+// somebody has it. PoCL 3.1 aborts where several queues run one kernel at the same time for
+// different numbers of work-groups: it keeps a copy of the kernel for the largest number so far,
+// and at the end of a run lets go of the newest copy, whichever one ran
+// (pocl_release_dlhandle_cache). Commands of several queues share the processor's threads in any
+// case.
+std::shared_ptr<DeviceQueue> open_queue(const compute::device& device);
+
 // What may be in use at one time, in bytes.
 struct DeviceMemory {
   std::uint64_t total = 0;    // of working memory: planes, splats, keys, lists
@@ -30,6 +44,14 @@ struct DeviceMemory {
 
 // What a device has room for beside all else that uses its memory.
 DeviceMemory memory_of(const compute::device& device, const DeviceTraits& traits);
+
+// One launch of a kernel, for tests and models that ask how the device was used.
+struct LaunchRecord {
+  std::string stage, kernel;
+  std::size_t items = 0, group_items = 0;  // work-items in all, and in a work-group
+  std::uint64_t local_bytes = 0;           // local memory of a group
+  compute::event event;                    // says when it ran, once the queue has finished
+};
 
 // One device with its queue and what all stages share.
 struct DeviceContext {

@@ -1,41 +1,31 @@
 #include "device/opencl/runtime_lock.h"
 
+#include <unistd.h>
+
 #include <atomic>
+#include <cstddef>
 
 #include "splotchcl/error.h"
-
-#if defined(__unix__) || defined(__APPLE__)
-#define SPLOTCHCL_HAS_POSIX_FILES
-#include <unistd.h>
-#endif
 
 namespace splotchcl {
 namespace {
 
-#ifdef SPLOTCHCL_HAS_POSIX_FILES
 // The first one that used OpenCL; 0: none yet.
 std::atomic<::pid_t>& process_of_runtime() {
   static std::atomic<::pid_t> process{0};
   return process;
 }
-#endif
 
 }  // namespace
 
 bool is_forked_from_runtime() {
-#ifdef SPLOTCHCL_HAS_POSIX_FILES
   const ::pid_t process = process_of_runtime();
   return process != 0 && process != ::getpid();
-#else
-  return false;
-#endif
 }
 
 void require_runtime() {
-#ifdef SPLOTCHCL_HAS_POSIX_FILES
   ::pid_t nobody = 0;
   process_of_runtime().compare_exchange_strong(nobody, ::getpid());
-#endif
   if (!is_forked_from_runtime()) return;
   throw DeviceError(
       "OpenCL was used before this process was forked, and does not work in it; start processes "
@@ -46,6 +36,43 @@ RuntimeLock lock_runtime() {
   static std::recursive_mutex mutex;
   require_runtime();
   return RuntimeLock(mutex);
+}
+
+namespace {
+
+bool are_same(const struct sigaction& a, const struct sigaction& b) {
+  if ((a.sa_flags & SA_SIGINFO) != (b.sa_flags & SA_SIGINFO)) return false;
+  return (a.sa_flags & SA_SIGINFO) != 0 ? a.sa_sigaction == b.sa_sigaction
+                                        : a.sa_handler == b.sa_handler;
+}
+
+bool is_handled(const struct sigaction& action) {
+  return (action.sa_flags & SA_SIGINFO) != 0 ||
+         (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN);
+}
+
+void put_back(int signal, const struct sigaction& before) {
+  struct sigaction now = {};
+  if (::sigaction(signal, nullptr, &now) == 0 && !are_same(now, before)) {
+    ::sigaction(signal, &before, nullptr);
+  }
+}
+
+}  // namespace
+
+KeptSignals::KeptSignals() {
+  for (std::size_t i = 0; i < of_faults.size(); ++i)
+    ::sigaction(of_faults[i], nullptr, &at_faults_[i]);
+  for (std::size_t i = 0; i < of_others.size(); ++i)
+    ::sigaction(of_others[i], nullptr, &at_others_[i]);
+}
+
+KeptSignals::~KeptSignals() {
+  for (std::size_t i = 0; i < of_faults.size(); ++i)
+    put_back(of_faults[i], at_faults_[i]);
+  for (std::size_t i = 0; i < of_others.size(); ++i) {
+    if (is_handled(at_others_[i])) put_back(of_others[i], at_others_[i]);
+  }
 }
 
 }  // namespace splotchcl

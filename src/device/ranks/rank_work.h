@@ -1,8 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "splotchcl/communicator.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 
@@ -20,6 +25,30 @@ struct FrameRanks {
 
   int rank() const { return all.rank(); }
   int size() const { return all.size(); }
+};
+
+// The one rank of a frame that one process draws: what all ranks have is what it has itself.
+class LoneRank final : public Communicator {
+ public:
+  int rank() const override { return 0; }
+  int size() const override { return 1; }
+  int rank_on_host() const override { return 0; }
+  int size_on_host() const override { return 1; }
+  std::string host() const override { return {}; }
+  void broadcast(void*, std::size_t, int) override {}
+  std::vector<Bytes> gather(const Bytes& own) override { return {own}; }
+  void add_up(std::vector<std::uint64_t>&) override {}
+  std::vector<Bytes> exchange(std::vector<Bytes> parts) override { return parts; }
+  void send(const void*, std::size_t, int) override { throw_alone(); }
+  void receive(void*, std::size_t, int) override { throw_alone(); }
+  [[noreturn]] void abort(int code) override { std::_Exit(code); }
+
+ private:
+  [[noreturn]] static void throw_alone() {
+    throw Error(
+        "found a message to another process where one draws alone, expected none; please "
+        "report this");
+  }
 };
 
 }  // namespace splotchcl

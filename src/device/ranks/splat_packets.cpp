@@ -7,105 +7,34 @@
 namespace splotchcl {
 namespace {
 
-// Where the parts of a packet begin.
-struct PacketLayout {
-  PacketLayout(const StageContext& context, std::uint64_t count)
-      : by_depth(context.frame.sort.by == SortOrder::By::depth),
-        splat_bytes(context.variant.splat_bytes()),
-        extended_bytes(context.variant.extended_splat_bytes()),
-        ends(keys + count * sizeof(std::uint32_t)),
-        // What follows is read as integers of 32 bits.
-        splats(ends + (by_depth ? (count + count % 2) * sizeof(std::uint16_t) : 0)),
-        extended(splats + count * splat_bytes),
-        bytes(extended + count * extended_bytes) {}
-
-  bool by_depth;
-  std::size_t splat_bytes, extended_bytes;
-  std::size_t keys = sizeof(std::uint64_t);
-  std::size_t ends, splats, extended, bytes;
-};
+// What is in a packet, in this order: how many splats, keys, ends, splats, extended ones. Calls
+// take(buffer, values) with each of the device's buffers that has some, and how many of a splat.
+template <class Take>
+void each_column(const StageContext& context, const KeyedSplats& keyed, const Take& take) {
+  take(keyed.keys, std::size_t{1});
+  if (keyed.key_ends.size() > 0) take(keyed.key_ends, std::size_t{1});
+  take(keyed.splats.splats, context.variant.splat_bytes());
+  if (context.variant.extended) take(keyed.splats.extended, context.variant.extended_splat_bytes());
+}
 
 template <class T>
-void copy(const std::vector<T>& from, std::size_t i, std::size_t values, std::byte* to) {
-  std::memcpy(to, from.data() + i * values, values * sizeof(T));
+const T* as_values_of(const Buffer<T>&, const std::byte* bytes) {
+  return reinterpret_cast<const T*>(bytes);
 }
 
-}  // namespace
-
-HostSplats download_splats(const StageContext& context, const KeyedSplats& keyed,
-                           std::uint32_t count) {
-  BufferPool& pool = context.device.pool;
-  const PacketLayout layout(context, count);
-  HostSplats host;
-  host.keys = pool.download(keyed.keys, count);
-  host.key_ends = pool.download(keyed.key_ends, layout.by_depth ? count : 0);
-  host.splats = pool.download(keyed.splats.splats, count * layout.splat_bytes);
-  host.extended = pool.download(keyed.splats.extended, count * layout.extended_bytes);
-  return host;
+// The 48 bits of the first `count`.
+std::vector<std::uint64_t> download_keys(BufferPool& pool, const KeyedSplats& keyed,
+                                         std::uint32_t count) {
+  const std::vector<std::uint32_t> upper = pool.download(keyed.keys, count);
+  std::vector<std::uint64_t> keys(upper.begin(), upper.end());
+  for (std::uint64_t& key : keys)
+    key <<= 16;
+  const std::vector<std::uint16_t> ends =
+      pool.download(keyed.key_ends, keyed.key_ends.size() > 0 ? count : 0);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    keys[i] |= ends[i];
+  return keys;
 }
-
-std::vector<Communicator::Bytes> pack(const StageContext& context, const HostSplats& splats,
-                                      const std::vector<std::uint32_t>& places,
-                                      std::size_t packets) {
-  std::vector<std::uint64_t> counts(packets);
-  for (const std::uint32_t place : places) {
-    if (place < packets) ++counts[place];
-  }
-  std::vector<PacketLayout> layouts;
-  std::vector<Communicator::Bytes> packed;
-  for (const std::uint64_t count : counts) {
-    layouts.emplace_back(context, count);
-    packed.emplace_back(layouts.back().bytes);
-    std::memcpy(packed.back().data(), &count, sizeof(count));
-  }
-  std::vector<std::size_t> filled(packets);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i] >= packets) continue;
-    const PacketLayout& layout = layouts[places[i]];
-    std::byte* const packet = packed[places[i]].data();
-    const std::size_t k = filled[places[i]]++;
-    copy(splats.keys, i, 1, packet + layout.keys + k * sizeof(std::uint32_t));
-    if (layout.by_depth)
-      copy(splats.key_ends, i, 1, packet + layout.ends + k * sizeof(std::uint16_t));
-    copy(splats.splats, i, layout.splat_bytes, packet + layout.splats + k * layout.splat_bytes);
-    if (layout.extended_bytes > 0) {
-      copy(splats.extended, i, layout.extended_bytes,
-           packet + layout.extended + k * layout.extended_bytes);
-    }
-  }
-  return packed;
-}
-
-std::uint64_t splats_in(const Communicator::Bytes& packet) {
-  std::uint64_t count = 0;
-  if (!packet.empty()) std::memcpy(&count, packet.data(), sizeof(count));
-  return count;
-}
-
-void unpack(const StageContext& context, const Communicator::Bytes& packet,
-            const KeyedSplats& keyed, std::uint64_t slot) {
-  const std::uint64_t count = splats_in(packet);
-  if (count == 0) return;
-  BufferPool& pool = context.device.pool;
-  const PacketLayout layout(context, count);
-  const std::byte* const data = packet.data();
-  const auto in_packet = static_cast<std::size_t>(count);
-  pool.write(keyed.keys, slot, reinterpret_cast<const std::uint32_t*>(data + layout.keys),
-             in_packet);
-  if (layout.by_depth) {
-    pool.write(keyed.key_ends, slot, reinterpret_cast<const std::uint16_t*>(data + layout.ends),
-               in_packet);
-  }
-  pool.write(keyed.splats.splats, slot * layout.splat_bytes, data + layout.splats,
-             in_packet * layout.splat_bytes);
-  pool.write(keyed.splats.extended, slot * layout.extended_bytes, data + layout.extended,
-             in_packet * layout.extended_bytes);
-  std::vector<std::uint32_t> order(in_packet);
-  std::iota(order.begin(), order.end(), static_cast<std::uint32_t>(slot));
-  pool.write(keyed.order, slot, order.data(), in_packet);
-}
-
-namespace {
 
 // What each cloud has, before its splats.
 struct FixedPart {
@@ -133,6 +62,58 @@ T take(const Communicator::Bytes& bytes, std::size_t& next) {
 }
 
 }  // namespace
+
+std::vector<Communicator::Bytes> pack(const StageContext& context, const KeyedSplats& keyed,
+                                      std::uint32_t count, std::size_t packets,
+                                      const PacketOfKey& packet_of) {
+  BufferPool& pool = context.device.pool;
+  std::vector<std::size_t> places;
+  std::vector<std::uint64_t> counts(packets);
+  for (const std::uint64_t key : download_keys(pool, keyed, count)) {
+    places.push_back(packet_of(key));
+    if (places.back() < packets) ++counts[places.back()];
+  }
+  std::vector<Communicator::Bytes> packed(packets);
+  for (std::size_t packet = 0; packet < packets; ++packet)
+    append(counts[packet], packed[packet]);
+  each_column(context, keyed, [&](const auto& buffer, std::size_t values) {
+    const auto column = pool.download(buffer, count * values);
+    const std::size_t bytes = values * sizeof(column.front());
+    std::vector<std::size_t> next(packets);
+    for (std::size_t packet = 0; packet < packets; ++packet) {
+      next[packet] = packed[packet].size();
+      packed[packet].resize(next[packet] + counts[packet] * bytes);
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (places[i] >= packets) continue;
+      std::memcpy(packed[places[i]].data() + next[places[i]], column.data() + i * values, bytes);
+      next[places[i]] += bytes;
+    }
+  });
+  return packed;
+}
+
+std::uint64_t splats_in(const Communicator::Bytes& packet) {
+  std::uint64_t count = 0;
+  if (!packet.empty()) std::memcpy(&count, packet.data(), sizeof(count));
+  return count;
+}
+
+void unpack(const StageContext& context, const Communicator::Bytes& packet,
+            const KeyedSplats& keyed, std::uint64_t slot) {
+  const auto count = static_cast<std::size_t>(splats_in(packet));
+  if (count == 0) return;
+  BufferPool& pool = context.device.pool;
+  const std::byte* next = packet.data() + sizeof(std::uint64_t);
+  each_column(context, keyed, [&](const auto& buffer, std::size_t values) {
+    const auto* const column = as_values_of(buffer, next);
+    pool.write(buffer, slot * values, column, count * values);
+    next += count * values * sizeof(*column);
+  });
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), static_cast<std::uint32_t>(slot));
+  pool.write(keyed.order, slot, order.data(), count);
+}
 
 std::vector<CloudAround> gather_clouds(Communicator& ranks, const std::vector<CloudAround>& own) {
   Communicator::Bytes bytes;

@@ -8,7 +8,6 @@
 #include "device/stages/clear_memory.h"
 #include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
-#include "scene/ceil_divide.h"
 #include "scene/plan/splat_limits.h"
 
 namespace splotchcl {
@@ -98,17 +97,11 @@ std::vector<OctaveOfLevel> octaves_of_levels(const GridPyramid& pyramid) {
   return octaves;
 }
 
-// Of so many tiles, whose numbers of splats lie so far apart that a processor waits for each.
 double longest_list(const float* listed, std::size_t tiles, std::size_t cells_per_tile) {
-  constexpr std::size_t at_a_time = 256;
-  std::vector<float> longest(ceil_divide(tiles, at_a_time));
-  for_blocks(tiles, at_a_time, [&](std::size_t first, std::size_t end) {
-    float& most = longest[first / at_a_time];
-    for (std::size_t tile = first; tile < end; ++tile)
-      most = std::max(most, listed[tile * cells_per_tile]);
-  });
-  return longest.empty() ? 0.0
-                         : static_cast<double>(*std::max_element(longest.begin(), longest.end()));
+  float longest = 0;
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+    longest = std::max(longest, listed[tile * cells_per_tile]);
+  return static_cast<double>(longest);
 }
 
 }  // namespace

@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "device/frame/column_arguments.h"
 #include "device/frame/key_windows.h"
-#include "device/stages/field_scaling.h"
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
 #include "scene/peak_color.h"
 #include "scene/plan/splat_limits.h"
 #include "scene/projection.h"
+#include "scene/scalar_map.h"
 #include "surroundings/cloud_around.h"
 
 namespace splotchcl {
@@ -30,6 +31,42 @@ template <typename Real>
 void split_in_two(const Vec3& from, Real (&high)[3], Real (&low)[3]) {
   for (int axis = 0; axis < 3; ++axis)
     split_in_two(from.a[axis], high[axis], low[axis]);
+}
+
+// How kernels bring a field to [0, 1] (kernels/project/project.h, FieldScaling), before it is
+// rounded to what they hold.
+struct KernelScaling {
+  int scaling = 0;  // SCALING_...
+  double minimum = 0, factor = 0, inverse_range = 0;
+};
+
+// Of an absent field, whose values are read as 1.
+KernelScaling always(double place) {
+  return {SCALING_LINEAR, 0, 0, place};
+}
+
+KernelScaling kernel_scaling(const ScalarMap& map) {
+  const double range = map.maximum - map.minimum;
+  const double inverse_range = range > 0 ? 1 / range : 0;
+  const bool is_log = map.scaling == Scaling::log;
+  if (const std::optional<double> least = least_before_scaling(map)) {
+    if (is_log) return {SCALING_LOG_FROM_LEAST, *least, 1 / *least, inverse_range / std::log(10)};
+    return {SCALING_ASINH_FROM_LEAST, *least, std::hypot(1, *least), inverse_range};
+  }
+  const int scaling = is_log                          ? SCALING_LOG
+                      : map.scaling == Scaling::asinh ? SCALING_ASINH
+                                                      : SCALING_LINEAR;
+  return {scaling, map.minimum, 0, inverse_range};
+}
+
+// A color field that is absent is palette position 0, whatever the map says; an intensity 1.
+KernelScaling color_scaling(const DrawnComponent& component) {
+  return component.particles.color.is_absent() ? always(0) : kernel_scaling(component.color);
+}
+
+KernelScaling intensity_scaling(const DrawnComponent& component) {
+  return component.particles.intensity.is_absent() ? always(1)
+                                                   : kernel_scaling(component.intensity);
 }
 
 template <typename Scaling>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <string>
 #include <utility>
 
@@ -15,7 +14,6 @@
 #include "device/stages/project_parameters.h"
 #include "device/stages/stage_programs.h"
 #include "scene/ceil_divide.h"
-#include "scene/depth_key.h"
 #include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
 #include "scene/plan/light_structure.h"
@@ -38,14 +36,6 @@ constexpr double share_of_ends = 1e-3;
   throw DeviceError("device " + device.device.name() + ": counted " + std::to_string(counted) +
                     " clouds around the camera and listed " + std::to_string(listed) +
                     ": draw with another device (--device)");
-}
-
-// A field's bits, turned so that integers have the order of the values, as of the splats' keys.
-std::uint32_t field_key(float value) {
-  if (value == 0) value = 0;  // -0 as well
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof(bits));
-  return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
 }
 
 // phi(y) = (1 - exp(-y)) / y.
@@ -134,43 +124,21 @@ std::vector<Surroundings::Found> Surroundings::list(const ChunkBlocks& blocks,
   return found;
 }
 
-// Particles beyond the limits that the scene sets are left out.
-std::vector<Surroundings::Found> Surroundings::within_limits(
-    std::uint32_t c, const std::vector<Found>& found) const {
-  const Frame& frame = context_.frame;
-  const DepthKeyScale scale = make_depth_key_scale(frame, frame.components[c]);
-  std::vector<Found> within;
-  for (const Found& one : found) {
-    const bool is_too_near = frame.near_limit && one.depth < scale.near_key;
-    const bool is_too_far = frame.far_limit && one.depth > scale.far_key;
-    if (!is_too_near && !is_too_far) within.push_back(one);
-  }
-  return within;
-}
-
-// As splats have it (sort_keys.cl).
-std::uint64_t Surroundings::sort_key(const DrawnComponent& component, std::size_t i,
-                                     std::uint64_t depth) const {
-  const SortOrder& sort = context_.frame.sort;
-  if (sort.by == SortOrder::By::depth) return sort.descending ? depth ^ (end_of_keys - 1) : depth;
-  const Column& field = component.particles.sort_field;
-  const std::uint32_t key = field_key(field.is_absent() ? 0.0f : field[i]);
-  return std::uint64_t{sort.descending ? ~key : key} << 16;
-}
-
 void Surroundings::append(std::uint32_t c, const std::vector<Found>& found,
                           std::vector<CloudAround>& clouds) const {
   const Frame& frame = context_.frame;
-  const std::vector<Found> within = within_limits(c, found);
-  std::vector<std::uint64_t> places;
-  for (const Found& one : within)
+  std::vector<std::uint64_t> places, keys;
+  for (const Found& one : found) {
+    if (one.key >= end_of_keys) continue;  // beyond the limits that the scene sets
     places.push_back(one.particle);
+    keys.push_back(one.key);
+  }
   DrawnComponent component = frame.components[c];
   component.particles = picked_particles(component.particles, places);
   const double widest = widest_angle(frame);
-  for (std::size_t k = 0; k < within.size(); ++k) {
+  for (std::size_t k = 0; k < keys.size(); ++k) {
     CloudAround cloud = cloud_around(component, frame, k);
-    cloud.key = sort_key(component, k, within[k].depth);
+    cloud.key = keys[k];
     if (brightest_of(cloud) * largest_column_around(cloud, frame, widest) > negligible)
       clouds.push_back(std::move(cloud));
   }

@@ -48,16 +48,14 @@ class Surroundings {
   double brightest() const;
   // All of them together lose no more than this part of what they may err by.
   void end_where_nothing_shows(std::vector<CloudAround>& clouds, double share) const;
-  // Particles and their depths' keys.
+  // Particles and the keys by which they are sorted (list_around.cl).
   struct Found {
-    std::uint64_t particle, depth;
+    std::uint64_t particle, key;
   };
   std::vector<Found> list(const ChunkBlocks& chunk, const ParticleBuffers& particles,
                           std::uint64_t most) const;
-  std::vector<Found> within_limits(std::uint32_t c, const std::vector<Found>& found) const;
   void append(std::uint32_t c, const std::vector<Found>& found,
               std::vector<CloudAround>& clouds) const;
-  std::uint64_t sort_key(const DrawnComponent& component, std::size_t i, std::uint64_t depth) const;
   // Pixels may err by `allowed`, interpolated; and once more by so much, rounded.
   SmoothPicture picture_of(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                            double allowed, double brightest) const;

@@ -161,13 +161,9 @@ std::vector<Communicator::Bytes> SplatSlices::share_out(std::size_t round, std::
   const std::uint32_t count =
       projector_.project_window(counter_.chunks()[chunk], counter_.particles_of(chunk), keys,
                                 counter_.blocks_without(chunk, keys), keyed, 0);
-  const HostSplats splats = download_splats(context_, keyed, count);
-  std::vector<std::uint32_t> places(count);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const SplatPlace place = {splats.key(i), first_chunk_ + chunk};
-    places[i] = static_cast<std::uint32_t>(slice_of(place, slices, ranks));
-  }
-  return pack(context_, splats, places, ranks);
+  return pack(context_, keyed, count, ranks, [&](std::uint64_t key) {
+    return slice_of({key, first_chunk_ + chunk}, slices, ranks);
+  });
 }
 
 // Splats come by ranks, and by chunks of each: in the order of their particles.

@@ -6,7 +6,6 @@
 #include "scene/plan/grid_pyramid.h"
 #include "scene/plan/guesses.h"
 #include "scene/plan/light_structure.h"
-#include "scene/plan/place_limits.h"
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/plan.h"
 

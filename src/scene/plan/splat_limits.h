@@ -53,4 +53,8 @@ LayerLimits choose_layer_limits(const ToleranceShares& shares, LightPlan light,
                                 double brightest_behind, double response,
                                 std::uint32_t longest_block);
 
+// For the precision and the tolerance that the plan has by now. `response`: what a relative error
+// of every splat does to the picture (error_budget.h).
+PlaceLimits choose_place_limits(const Frame& frame, const FramePlan& plan, double response);
+
 }  // namespace splotchcl
