@@ -1,5 +1,6 @@
 #include "device/opencl/device_context.h"
 
+#include "device/opencl/native_exp2.h"
 #include "parallel/available_memory.h"
 
 namespace splotchcl {
@@ -20,7 +21,9 @@ DeviceContext::DeviceContext(const compute::device& chosen)
       memory(memory_of(chosen, traits)),
       programs(context),
       pool(context, queue, timer, traits),
-      copies(context, queue, timer, traits) {}
+      copies(context, queue, timer, traits) {
+  if (traits.is_gpu) traits.native_exp2 = native_exp2_serves(*this);
+}
 
 void DeviceContext::limit_memory(std::uint64_t bytes) {
   memory.total = bytes;
