@@ -36,6 +36,7 @@ Frame headline_frame(LightPlan light, bool original_kernel) {
 Variant gpu_variant(const Frame& frame) {
   DeviceTraits traits;
   choose_shape(traits, false);
+  traits.native_exp2 = true;
   PlanOptions without_slabs;  // as GPUs draw
   without_slabs.slabs = 0;
   return Variant(frame, make_plan(frame, without_slabs), traits);

@@ -172,7 +172,7 @@ struct LayerLimits {
   float stop = 0;  // a tile whose transmittance is at most this is finished; below 0: never
   // Light may show through opacities close to 1: transmittances are carried there.
   bool keeps_transmittance = false;
-  // On processors, so many layers at most are put together before they come behind those in front:
+  // So many layers at most are put together before they come behind those in front:
   // equal ones err by equal roundings of an opacity, and light shows through that.
   std::uint32_t most_in_block = 1024;
 };

@@ -70,7 +70,9 @@ void __attribute__((overloadable, convergent)) barrier(cl_mem_fence_flags);
 EACH_FLOAT(DECLARE)
 #undef DECLARE
 
-#define DECLARE(T, INT, UINT) INT BUILTIN_CONST isfinite(T);
+#define DECLARE(T, INT, UINT) \
+  INT BUILTIN_CONST isfinite(T); \
+  T BUILTIN_CONST native_exp2(T);
 EACH_WIDTH(DECLARE, float, int, uint)
 #undef DECLARE
 

@@ -18,7 +18,7 @@ struct CompositeParameters {
   float phi_third;             // three,
   float phi_series;            // and four
   float stop;                  // where every pixel's transmittance is at most this; below 0: never
-  unsigned int most_in_block;  // layers that rows put together before they come behind the others
+  unsigned int most_in_block;  // splats put together before they come behind the others
   struct CubeFace face;
 };
 

@@ -1,4 +1,4 @@
-// Compositing for GPUs: a work-group takes a segment of one tile's list, a work-item one pixel,
+// Compositing for GPUs: a work-group takes a segment of one tile's list, a work-item four pixels,
 // batch by batch (tile_batch.cl). Formulas are those of composite_rows.cl, on single floats.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
@@ -43,11 +43,10 @@ static inline int is_inside_cut(const __local TileSplat* splat, uint x, uint y) 
 #endif
 
 #if LIGHT_ORDERED
-// As THIN_CHANNEL and LAYER_CHANNEL of composite_rows.cl.
+// As THIN_CHANNEL and LAYER_CHANNEL of composite_rows.cl. `covered` is the shape times phi.
 static inline void add_thin_channel(float* pixel, int c, float emission, float absorption,
-                                    float shape, float half_square) {
+                                    float covered) {
   const float opacity = pixel[c + 3];
-  const float covered = shape - half_square * absorption;
   const float u = covered - opacity * covered;
   pixel[c] += u * emission;
   pixel[c + 3] = opacity + u * absorption;
@@ -64,13 +63,23 @@ static inline void add_channel(float* pixel, int c, float emission, float absorp
   pixel[c + 3] = carry(opacity, u * absorption, t * passed);
 }
 
+INLINED void add_thinnest_splat(float* pixel, const __local BatchLight* light, uint k,
+                                float shape) {
+  const float4 layer = light->absorption_and_red[k];
+  const float2 emission = light->green_and_blue[k];
+  add_thin_channel(pixel, 0, layer.w, layer.x, shape);
+  add_thin_channel(pixel, 1, emission.x, layer.y, shape);
+  add_thin_channel(pixel, 2, emission.y, layer.z, shape);
+}
+
+// With the bits of add_thinnest_splat() where one term serves: no splat's depend on its batch.
 INLINED void add_thin_splat(float* pixel, const __local BatchLight* light, uint k, float shape) {
   const float4 layer = light->absorption_and_red[k];
   const float2 emission = light->green_and_blue[k];
-  const float half_square = 0.5f * (shape * shape);
-  add_thin_channel(pixel, 0, layer.w, layer.x, shape, half_square);
-  add_thin_channel(pixel, 1, emission.x, layer.y, shape, half_square);
-  add_thin_channel(pixel, 2, emission.y, layer.z, shape, half_square);
+  const float square = light->second_term[k] * (shape * shape);
+  add_thin_channel(pixel, 0, layer.w, layer.x, shape - square * layer.x);
+  add_thin_channel(pixel, 1, emission.x, layer.y, shape - square * layer.y);
+  add_thin_channel(pixel, 2, emission.y, layer.z, shape - square * layer.z);
 }
 
 INLINED void add_splat(float* pixel, const __local BatchLight* light, uint k, float shape,
@@ -90,7 +99,8 @@ INLINED void add_splat(float* pixel, const __local BatchLight* light, uint k, fl
   add_channel(pixel, 2, emission.y, layer.z, shape, by_series);
 }
 #else
-INLINED void add_thin_splat(float* pixel, const __local BatchLight* light, uint k, float shape) {
+INLINED void add_thinnest_splat(float* pixel, const __local BatchLight* light, uint k,
+                                float shape) {
   for (int i = 0; i < SUMMED / 3; ++i) {
     const float4 summed = light->summed[k * (SUMMED / 3) + i];
     pixel[3 * i] += shape * summed.x;
@@ -111,6 +121,12 @@ INLINED float shape_at(const __local Batch* batch, const __local Listed* listed,
 #else
 INLINED float shape_at(const __local Batch* batch, const __local Listed* listed, uint k, uint x,
                        uint y) {
+  if (DISCS_BY_PIXEL) {
+    const float4 disc = batch->discs[k];
+    const float dx = (float)x + FIRST_X - disc.x, dy = (float)y + FIRST_Y - disc.y;
+    const float square = dx * dx + dy * dy;
+    return square <= disc.z ? exp2_negative(square * -disc.w) : 0.0f;
+  }
   const Axis column = batch->axes[k * AXES + x], row = batch->axes[k * AXES + TILE_WIDTH + y];
 #ifdef CUT_BY_AXES
   return column.y <= row.y ? column.x * row.x : 0.0f;
@@ -123,50 +139,108 @@ INLINED float shape_at(const __local Batch* batch, const __local Listed* listed,
 }
 #endif
 
-// The batch's splats of these bits, in order. Hardly any batch has layers that are not thin.
-INLINED void draw(float* pixel, const __local Batch* batch, const __local Listed* listed, uint bits,
-                  uint x, uint y, const CompositeParameters p TILE_PARAMETER,
+// The batch's splats of these bits, in order, in an item's pixels of a part, from (x, y) down.
+// Hardly any batch has layers that are not thin.
+INLINED void draw(float* pixels, const __local Batch* batch, const __local Listed* listed,
+                  uint bits, uint x, uint y, const CompositeParameters p TILE_PARAMETER,
                   const TileClouds* clouds) {
 #if LIGHT_ORDERED
-#if KEEP_TRANSMITTANCE
-  const int all_thin = 0;
-#else
-  const int all_thin = (bits & bits_of_flags(&batch->thick)) == 0;
-#endif
+  const int all_thin = !KEEP_TRANSMITTANCE && (bits & bits_of_flags(&batch->thick)) == 0;
   while (!all_thin && bits != 0) {
     const uint k = take_first(&bits);
     const float sigma = listed->splats[k].sigma;
-    const float shape = CLOUDS_IN_LISTS && is_cloud(sigma)
-                            ? column_of_cloud(cloud_of(sigma, clouds), clouds, (int)x, (int)y)
-                            : shape_at(batch, listed, k, x, y TILE_PASSED);
-    if (shape > 0.0f) add_splat(pixel, &batch->light, k, shape, p);
+#pragma unroll
+    for (uint i = 0; i < ITEM_HEIGHT; ++i) {
+      const float shape =
+          CLOUDS_IN_LISTS && is_cloud(sigma)
+              ? column_of_cloud(cloud_of(sigma, clouds), clouds, (int)x, (int)(y + i))
+              : shape_at(batch, listed, k, x, y + i TILE_PASSED);
+      if (shape > 0.0f) add_splat(pixels + i * PLANES, &batch->light, k, shape, p);
+    }
+  }
+  const int all_thinnest = (bits & bits_of_flags(&batch->of_two_terms)) == 0;
+  while (!all_thinnest && bits != 0) {
+    const uint k = take_first(&bits);
+#pragma unroll
+    for (uint i = 0; i < ITEM_HEIGHT; ++i) {
+      const float shape = shape_at(batch, listed, k, x, y + i TILE_PASSED);
+      add_thin_splat(pixels + i * PLANES, &batch->light, k, shape);
+    }
   }
 #endif
   while (bits != 0) {
     const uint k = take_first(&bits);
-    add_thin_splat(pixel, &batch->light, k, shape_at(batch, listed, k, x, y TILE_PASSED));
+#pragma unroll
+    for (uint i = 0; i < ITEM_HEIGHT; ++i) {
+      const float shape = shape_at(batch, listed, k, x, y + i TILE_PASSED);
+      add_thinnest_splat(pixels + i * PLANES, &batch->light, k, shape);
+    }
   }
 }
 
-// A block of splats behind what is in front of it (ordered_list.cl, add_block()).
-static inline void add_block(float* block, float* front) {
-  add_layer(front, block);
-  for (int c = 0; c < PLANES; ++c)
-    block[c] = 0.0f;
+// The tile's pixels in the planes, or in its segment's own layer. Read from local memory when they
+// are needed: a compiler would keep addresses of all of an item's numbers in registers.
+typedef struct PixelPlaces {
+  __global float* first;
+  size_t plane, row;
+} PixelPlaces;
+
+INLINED __global float* pixel_of_tile(const __local PixelPlaces* places, uint x, uint y) {
+  return places->first + y * places->row + x;
 }
 
 // Whether a pixel lets anything through from behind: of a tile in which none does, the rest of the
 // list is not drawn.
-static inline int shows_behind(const float* front, float stop) {
+static inline int shows_behind(const float* pixel, float stop) {
 #if LIGHT_ORDERED
   for (int c = 3; c < PLANES; ++c) {
-    if (transmittance_of(front[c]) > stop) return 1;
+    if (transmittance_of(pixel[c]) > stop) return 1;
   }
   return 0;
 #else
   return 1;
 #endif
 }
+
+// The row of an item's pixel, from its first one.
+#define ROW_OF_PIXEL(i) ((i) / ITEM_HEIGHT * ROWS_TO_NEXT + (i) % ITEM_HEIGHT)
+
+INLINED void load_pixel(__global const float* from, size_t plane, int is_empty, float* pixel) {
+  for (int c = 0; c < PLANES; ++c)
+    pixel[c] = is_empty ? 0.0f : from[c * plane];
+}
+
+// A block of splats behind what is in front of it (ordered_list.cl, add_block()), which few splats
+// need: it is read and written where it lies, unless there is nothing yet. Returns whether anything
+// shows behind both.
+INLINED int add_block(float* block, const __local PixelPlaces* places, int is_empty, uint x, uint y,
+                      float stop) {
+  int shows = 0;
+#pragma unroll
+  for (uint i = 0; i < PIXELS_OF_ITEM; ++i) {
+    float front[PLANES];
+    __global float* at = pixel_of_tile(places, x, y + ROW_OF_PIXEL(i));
+    load_pixel(at, places->plane, is_empty, front);
+    add_layer(front, block + i * PLANES);
+    for (int c = 0; c < PLANES; ++c) {
+      at[c * places->plane] = front[c];
+      block[i * PLANES + c] = 0.0f;
+    }
+    shows |= shows_behind(front, stop);
+  }
+  return shows;
+}
+
+INLINED int any_shows_behind(const float* block, float stop) {
+  int shows = 0;
+#pragma unroll
+  for (uint i = 0; i < PIXELS_OF_ITEM; ++i)
+    shows |= shows_behind(block + i * PLANES, stop);
+  return shows;
+}
+
+// Splats that touch the tile, until it is looked at whether anything behind them shows.
+#define MOST_IN_STRETCH 64u
 
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
@@ -176,6 +250,7 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     __global const DirectionCone* cones, __global const Stencil* stencils) {
   __local Listed listed[2];
   __local Batch batch;
+  __local PixelPlaces places;
   __local uint shows;  // whether anything behind shows in any pixel
   const uint item = get_local_id(0), part = item / PART_ITEMS;
   // The launch has as many groups as there are segments.
@@ -185,28 +260,39 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   __global const Stencil* const stencil = STENCILS ? stencil_of_grid(stencils, grid_number) : 0;
   const uint in_grid = segment.tile - grid.first_tile;
   const uint x = part % PARTS_ACROSS * PART_WIDTH + item % PART_WIDTH;
-  const uint y = part / PARTS_ACROSS * PART_HEIGHT + item % PART_ITEMS / PART_WIDTH;
-  __global float* own = planes + first_float(grid) +
-                        ((size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT + y) * grid.stride +
-                        (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH + x;
+  const uint y = part / PARTS_ACROSS * PART_HEIGHT + item % PART_ITEMS / PART_WIDTH * ITEM_HEIGHT;
   const CloudTables tables = {clouds, cloud_splats, directions, cones};
   TileClouds of_tile;
   if (CLOUDS_IN_LISTS) of_tile = clouds_of_tile(tables, grid, segment.tile);
 #if FACE_OF_CUBE
   const TileOnFace on_face = tile_on_face(p.face, grid, segment.tile);
 #endif
-  float front[PLANES], pixel[PLANES];
-  for (int c = 0; c < PLANES; ++c) {
-    front[c] = segment.partial == NO_PARTIAL ? own[(size_t)c * grid.plane_size] : 0.0f;
-    pixel[c] = 0.0f;
+  float block[PIXELS_OF_ITEM * PLANES];
+  for (uint i = 0; i < PIXELS_OF_ITEM * PLANES; ++i)
+    block[i] = 0.0f;
+  const int is_partial = segment.partial != NO_PARTIAL;
+  int is_empty = is_partial;
+  if (item == 0) {
+    shows = 0;
+    places.row = is_partial ? TILE_WIDTH : grid.stride;
+    places.plane = is_partial ? TILE_PIXELS : grid.plane_size;
+    places.first = is_partial
+                       ? partials + (size_t)segment.partial * PLANES * TILE_PIXELS
+                       : planes + first_float(grid) +
+                             (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
+                             (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
   }
-  if (item == 0) shows = 0;
   barrier(CLK_LOCAL_MEM_FENCE);
-  if (shows_behind(front, p.stop)) atomic_or(&shows, 1u);
+  for (uint i = 0; i < PIXELS_OF_ITEM; ++i) {
+    float front[PLANES];
+    load_pixel(pixel_of_tile(&places, x, y + ROW_OF_PIXEL(i)), places.plane, is_empty, front);
+    if (shows_behind(front, p.stop)) atomic_or(&shows, 1u);
+  }
   barrier(CLK_LOCAL_MEM_FENCE);
-  // Blocks are of splats that touch the tile: a crop's lists have others than those of the picture,
-  // too. What decides over steps and barriers is the same for all items.
-  uint in_block = 0, turn = 0, end = shows ? segment.end : segment.begin;
+  // Blocks and stretches are of splats that touch the tile: a crop's lists have others than those
+  // of the picture, too. What decides over steps and barriers is the same for all items.
+  const uint most = min(MOST_IN_STRETCH, p.most_in_block);
+  uint in_stretch = 0, in_block = 0, turn = 0, end = shows ? segment.end : segment.begin;
   for (uint first = segment.begin; first < end; first += BATCH) {
     const uint count = min((uint)BATCH, segment.end - first);
     __local Listed* own_listed = listed + turn;
@@ -217,27 +303,32 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     if (item == 0) shows = 0;
     barrier(CLK_LOCAL_MEM_FENCE);
     const uint touching = bits_of_flags(&batch.touching);
-    const uint drawn = bits_of_flags(batch.drawn + part);
-    const int ends_block = in_block + popcount(touching) >= SPLATS_OF_BLOCK;
+    in_stretch += popcount(touching);
+    int ends_stretch = in_stretch >= most;
     // Splats that touch no pixel are drawn nowhere, so that all bits from there on serve.
-    const uint of_next = ends_block ? bits_behind(touching, SPLATS_OF_BLOCK - in_block) : 0u;
-    draw(pixel, &batch, own_listed, drawn & ~of_next, x, y, p TILE_ARGUMENT, &of_tile);
-    in_block += popcount(touching);
-    if (ends_block) {
-      add_block(pixel, front);
-      if (shows_behind(front, p.stop)) atomic_or(&shows, 1u);
-      draw(pixel, &batch, own_listed, drawn & of_next, x, y, p TILE_ARGUMENT, &of_tile);
-      in_block -= SPLATS_OF_BLOCK;
+    uint now = 0xffffffffu;
+    if (ends_stretch) now = ~bits_behind(touching, most + popcount(touching) - in_stretch);
+    for (;;) {
+#pragma unroll
+      for (uint i = 0; i < PARTS_OF_ITEM; ++i) {
+        const uint drawn = bits_of_flags(batch.drawn + part + i * PARTS_TO_NEXT);
+        draw(block + i * ITEM_HEIGHT * PLANES, &batch, own_listed, drawn & now, x,
+             y + i * ROWS_TO_NEXT, p TILE_ARGUMENT, &of_tile);
+      }
+      if (!ends_stretch) break;
+      in_stretch -= most;
+      in_block += most;
+      const int ends_block = in_block >= p.most_in_block;
+      if (ends_block) in_block = 0;
+      if (ends_block ? add_block(block, &places, is_empty, x, y, p.stop)
+                     : any_shows_behind(block, p.stop))
+        atomic_or(&shows, 1u);
+      if (ends_block) is_empty = 0;
       barrier(CLK_LOCAL_MEM_FENCE);
       if (!shows) end = first;
+      now = shows ? ~now : 0u;
+      ends_stretch = 0;
     }
   }
-  add_block(pixel, front);
-  for (int c = 0; c < PLANES; ++c) {
-    if (segment.partial == NO_PARTIAL) {
-      own[(size_t)c * grid.plane_size] = front[c];
-    } else {
-      partials[((size_t)segment.partial * PLANES + c) * GROUP + y * TILE_WIDTH + x] = front[c];
-    }
-  }
+  add_block(block, &places, is_empty, x, y, p.stop);
 }

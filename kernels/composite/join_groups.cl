@@ -1,13 +1,16 @@
-// Joins the layers of a tile that was cut into segments, as join.cl does, for GPUs: a work-group
-// per segment, of which the first of a tile joins them all, a work-item per pixel.
+// Joins the layers of a tile that was cut into segments, as join.cl does, for GPUs: work-groups of
+// a segment, of which those of a tile's first one join them all, a work-item per pixel.
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
+#include "kernels/common/group.h"
+#include "kernels/common/group_sums.cl"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/layer_behind.cl"
 
-#define GROUP (TILE_WIDTH * TILE_HEIGHT)
+#define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
+#define GROUPS_OF_TILE (TILE_PIXELS / GROUP_ITEMS)
 
 // The segment behind the tile's last one. All items look for it together: to read one segment after
 // the other would take longer than to join them.
@@ -20,7 +23,7 @@ INLINED uint end_of_tile(__local uint* end, __global const Segment* segments, ui
   while (searched < found) {
     const uint s = searched + get_local_id(0);
     if (s < end_segment && segments[s].tile != tile) atomic_min(end, s);
-    searched += GROUP;
+    searched += GROUP_ITEMS;
     barrier(CLK_LOCAL_MEM_FENCE);
     found = *end;
     barrier(CLK_LOCAL_MEM_FENCE);
@@ -28,11 +31,12 @@ INLINED uint end_of_tile(__local uint* end, __global const Segment* segments, ui
   return found;
 }
 
-__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join(
-    const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-    __global float* planes, __global const float* partials) {
+__kernel OF_GROUPS void join(const CompositeParameters p, __global const Grid* grids,
+                             __global const Segment* segments, __global float* planes,
+                             __global const float* partials) {
   __local uint end;
-  const uint id = p.first_segment + get_group_id(0), pixel = get_local_id(0);
+  const uint id = p.first_segment + get_group_id(0) / GROUPS_OF_TILE;
+  const uint pixel = get_group_id(0) % GROUPS_OF_TILE * GROUP_ITEMS + get_local_id(0);
   const Segment first = segments[id];
   const int joins = first.partial != NO_PARTIAL && (id == 0 || segments[id - 1].tile != first.tile);
   const uint count =
@@ -47,12 +51,12 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void join(
   float front[PLANES];
   for (int c = 0; c < PLANES; ++c)
     front[c] = own[(size_t)c * grid.plane_size];
-  __global const float* layer = partials + (size_t)first.partial * PLANES * GROUP + pixel;
+  __global const float* layer = partials + (size_t)first.partial * PLANES * TILE_PIXELS + pixel;
 #pragma unroll 4
   for (uint k = 0; k < count; ++k) {
     float behind[PLANES];
     for (int c = 0; c < PLANES; ++c)
-      behind[c] = layer[((size_t)k * PLANES + c) * GROUP];
+      behind[c] = layer[((size_t)k * PLANES + c) * TILE_PIXELS];
     add_layer(front, behind);
   }
   for (int c = 0; c < PLANES; ++c)

@@ -14,15 +14,26 @@
 #include "kernels/composite/shape.cl"
 #include "kernels/composite/stencil.cl"
 
-#define GROUP (TILE_WIDTH * TILE_HEIGHT)
+#define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
+// An item has two pixels of a part below each other, which share what they read of a splat, and as
+// many of another part: the larger the tile, the fewer lists a splat is in.
+#define ITEM_HEIGHT 2
+#define PARTS_OF_ITEM 2
+#define PIXELS_OF_ITEM (ITEM_HEIGHT * PARTS_OF_ITEM)
+#define GROUP (TILE_PIXELS / PIXELS_OF_ITEM)
 #define AXES (TILE_WIDTH + TILE_HEIGHT)
 #define BATCH FLAGS
 // Parts of a tile: the pixels of 32 work-items, which many GPUs run as one.
 #define PART_WIDTH 8
-#define PART_HEIGHT 4
-#define PART_ITEMS (PART_WIDTH * PART_HEIGHT)
+#define PART_HEIGHT 8
+#define PART_ITEMS (PART_WIDTH * PART_HEIGHT / ITEM_HEIGHT)
 #define PARTS_ACROSS (TILE_WIDTH / PART_WIDTH)
-#define PARTS (GROUP / PART_ITEMS)
+#define PARTS (TILE_PIXELS / (PART_WIDTH * PART_HEIGHT))
+// An item's other part is so many further on, and so many pixels below.
+#define PARTS_TO_NEXT (PARTS / PARTS_OF_ITEM)
+#define ROWS_TO_NEXT (PARTS_TO_NEXT / PARTS_ACROSS * PART_HEIGHT)
+REQUIRE(an_item_for_each_splat_and_two_parts,
+        BATCH == PART_ITEMS && GROUP == BATCH * PARTS_TO_NEXT);
 // The first pixel's center, from the tile's middle.
 #define FIRST_X (0.5f - 0.5f * TILE_WIDTH)
 #define FIRST_Y (0.5f - 0.5f * TILE_HEIGHT)
@@ -35,6 +46,7 @@ typedef struct BatchLight {
   float4 absorption_and_red[BATCH];  // absorption, and what is emitted of the first channel
   float2 green_and_blue[BATCH];      // that is emitted
   float deepest[BATCH];              // the optical depth in any pixel at most
+  float second_term[BATCH];          // of phi's series: 1/2, or 0 where one term serves
 #else
   float4 summed[BATCH * (SUMMED / 3)];  // by threes
 #endif
@@ -55,13 +67,21 @@ typedef struct Listed {
   float factors[2 * BATCH];  // of each splat's columns, then of each splat's rows (axis_factor)
 } Listed;
 
+// Cut discs of values at pixel centers need no axes where a GPU has a fast 2^t: each pixel takes
+// its own distance.
+#define DISCS_BY_PIXEL          \
+  (NATIVE_EXP2 && KERNEL_CUT && \
+   !(SAMPLING_MEAN || ELLIPSES || FACE_OF_CUBE || FINE_PLACES || STENCILS))
+
 // What all pixels need of them.
 typedef struct Batch {
   BatchLight light;
-  Axis axes[BATCH * AXES];  // of each splat, columns, then rows
-  Flags touching;           // splats that reach the center of a pixel of the tile
-  Flags drawn[PARTS];       // those of a part
-  Flags thick;              // whose layers two terms do not serve for
+  float4 discs[DISCS_BY_PIXEL ? BATCH : 1];      // place, cut's radius squared, and axis_factor()
+  Axis axes[DISCS_BY_PIXEL ? 1 : BATCH * AXES];  // else, of each splat, columns, then rows
+  Flags touching;      // splats that reach the center of a pixel of the tile
+  Flags drawn[PARTS];  // those of a part
+  Flags of_two_terms;  // whose layers one term does not serve for,
+  Flags thick;         // and two do not
 } Batch;
 
 // What axis_shape() needs of a width: divided once for all pixels.
@@ -166,24 +186,28 @@ static inline float deepest_of(const __local TileSplat* splat, float mean_sigma)
 
 #define THREE_OF(numbers) (float3)((numbers)[0], (numbers)[1], (numbers)[2])
 INLINED void put_layer(__local BatchLight* light, uint k, const float3 absorption,
-                       const float3 emission, float deepest) {
+                       const float3 emission, float deepest, int terms) {
   light->absorption_and_red[k] = (float4)(absorption, emission.x);
   light->green_and_blue[k] = emission.yz;
   light->deepest[k] = deepest;
+  light->second_term[k] = terms > 1 ? 0.5f : 0.0f;
 }
 
-// Returns whether two terms do not serve for the layer; columns of clouds are worked out where they
-// do not.
+// Returns how many terms serve for the layer: one, two or, for all that need more, three. Columns
+// of clouds are worked out with these.
 INLINED int prepare_light(__local BatchLight* light, uint k, const __local TileSplat* splat,
                           float mean_sigma, const CompositeParameters p, const TileClouds* clouds) {
   if (CLOUDS_IN_LISTS && is_cloud(splat->sigma)) {
     __global const CloudEntry* cloud = cloud_of(splat->sigma, clouds);
-    put_layer(light, k, THREE_OF(cloud->absorption), THREE_OF(cloud->emission), cloud->deepest);
-    return 1;
+    const int terms_of_cloud = 1 + (cloud->deepest > p.phi_first) + (cloud->deepest > p.phi_short);
+    put_layer(light, k, THREE_OF(cloud->absorption), THREE_OF(cloud->emission), cloud->deepest,
+              terms_of_cloud);
+    return 3;
   }
   const float deepest = deepest_of(splat, mean_sigma);
-  put_layer(light, k, THREE_OF(splat->absorption), THREE_OF(splat->emission), deepest);
-  return deepest > p.phi_short;
+  const int terms = 1 + (deepest > p.phi_first) + (deepest > p.phi_short);
+  put_layer(light, k, THREE_OF(splat->absorption), THREE_OF(splat->emission), deepest, terms);
+  return terms;
 }
 #else
 INLINED int prepare_light(__local BatchLight* light, uint k, const __local TileSplat* splat,
@@ -192,7 +216,7 @@ INLINED int prepare_light(__local BatchLight* light, uint k, const __local TileS
     const __local float* summed = splat->summed + 3 * i;
     light->summed[k * (SUMMED / 3) + i] = (float4)(summed[0], summed[1], summed[2], 0.0f);
   }
-  return 0;
+  return 1;
 }
 #endif
 
@@ -228,8 +252,8 @@ static inline float cut_of_axis(const __local TileSplat* splat, int is_column, f
 }
 #endif
 
-// What all pixels of the tile need of the batch. An item has one column or row of all splats that
-// it takes, and one part: there are as many parts of all splats as items.
+// What all pixels of the tile need of the batch. There are half as many items as parts of all
+// splats.
 INLINED void prepare(__local Batch* batch, const __local Listed* listed, uint count,
                      float mean_sigma, const CompositeParameters p, const TileClouds* clouds,
                      __global const Stencil* stencil) {
@@ -237,7 +261,7 @@ INLINED void prepare(__local Batch* batch, const __local Listed* listed, uint co
   const int is_column = axis < TILE_WIDTH;
   const int pixel = (int)axis - (is_column ? 0 : TILE_WIDTH);
   const float center = (float)pixel + (is_column ? FIRST_X : FIRST_Y);
-  for (uint k = item / AXES; k < count; k += GROUP / AXES) {
+  for (uint k = item / AXES; !DISCS_BY_PIXEL && k < count; k += GROUP / AXES) {
     const float shape = axis_of_splat(listed, k, is_column, pixel, center, mean_sigma, stencil);
 #ifdef CUT_BY_AXES
     batch->axes[k * AXES + axis] =
@@ -246,19 +270,25 @@ INLINED void prepare(__local Batch* batch, const __local Listed* listed, uint co
     batch->axes[k * AXES + axis] = shape;
 #endif
   }
-  const uint k = item % BATCH, part = item / BATCH;
+  const uint k = item % BATCH, first_part = item / BATCH;
   const __local TileSplat* splat = listed->splats + k;
   // Items of the first parts have fetched factors.
-  if (part == PARTS - 1) {
-    int is_thick = 0, is_touching = 0;
+  if (first_part == PARTS_TO_NEXT - 1) {
+    int terms = 1, is_touching = 0;
     if (k < count) {
-      is_thick = prepare_light(&batch->light, k, splat, mean_sigma, p, clouds);
+      const float cut = cut_radius(splat->radius);
+      if (DISCS_BY_PIXEL)
+        batch->discs[k] = (float4)(splat->x, splat->y, cut * cut, listed->factors[k]);
+      terms = prepare_light(&batch->light, k, splat, mean_sigma, p, clouds);
       is_touching = touches(splat, clouds);
     }
-    store_flag(&batch->thick, k, is_thick);
+    store_flag(&batch->of_two_terms, k, terms > 1);
+    store_flag(&batch->thick, k, terms > 2);
     store_flag(&batch->touching, k, is_touching);
   }
-  const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
-  const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
-  store_flag(batch->drawn + part, k, k < count && touches_part(splat, x, y, mean_sigma, clouds));
+  for (uint part = first_part; part < PARTS; part += PARTS_TO_NEXT) {
+    const float x = (float)(part % PARTS_ACROSS * PART_WIDTH) + 0.5f * (PART_WIDTH - TILE_WIDTH);
+    const float y = (float)(part / PARTS_ACROSS * PART_HEIGHT) + 0.5f * (PART_HEIGHT - TILE_HEIGHT);
+    store_flag(batch->drawn + part, k, k < count && touches_part(splat, x, y, mean_sigma, clouds));
+  }
 }

@@ -1,5 +1,6 @@
 // The shape for GPUs: how it uses the device, and its own pieces.
 #include "device/cases.h"
+#include "device/opencl/native_exp2.h"
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "device/stages/group_binner.h"
@@ -23,6 +24,12 @@ class GroupShape : public StageTest {
     draw_once(device(), frame, CompositeShape::groups);
     device().launches = nullptr;
     return launches;
+  }
+
+  static std::ptrdiff_t count_of(const std::string& kernel,
+                                 const std::vector<LaunchRecord>& launches) {
+    return std::count_if(launches.begin(), launches.end(),
+                         [&](const LaunchRecord& launch) { return launch.kernel == kernel; });
   }
 };
 
@@ -53,12 +60,16 @@ TEST_F(GroupShape, DrawsTheSamePictureInBandsOfTilesBitForBit) {
     // One tile may have all splats of a chunk, so that a band holds as many at least.
     device().traits.chunk_blocks = 2;
     device().traits.sorted_chunk = 512;
+    std::vector<LaunchRecord> at_once, in_bands;
+    device().launches = &at_once;
     const Image whole = Pipeline(device(), particles, frame, frame_plan).draw();
+    device().launches = &in_bands;
     device().traits.list_capacity = 1;
-    Pipeline in_bands(device(), particles, frame, frame_plan);
-    const Image banded = in_bands.draw();
+    const Image banded = Pipeline(device(), particles, frame, frame_plan).draw();
+    device().launches = nullptr;
     device().traits = traits;
-    EXPECT_GT(in_bands.counts().tile_entries, 2 * 3000u) << "the lists must not fit";
+    EXPECT_GT(count_of("bin_make_entries", in_bands), count_of("bin_make_entries", at_once))
+        << "the lists must not fit";
     EXPECT_EQ(whole.pixels, banded.pixels);
   }
 }
@@ -94,6 +105,28 @@ TEST_F(GroupShape, DrawsTheSameBitsAgain) {
     EXPECT_EQ(draw_once(device(), frame, CompositeShape::groups).pixels,
               draw_once(device(), frame, CompositeShape::groups).pixels);
   }
+}
+
+// GPUs take their own 2^t where it serves, which this device's does.
+TEST_F(GroupShape, HoldsItsToleranceWithTheDevicesOwnPowersOfTwo) {
+  ASSERT_TRUE(native_exp2_serves(device())) << error_of_native_exp2(device());
+  choose_shape(device().traits, false);
+  const DeviceTraits traits = device().traits;
+  device().traits.native_exp2 = true;
+  for (const LightPlan plan : {LightPlan::emission, LightPlan::ordered}) {
+    for (const bool is_cut : {false, true}) {
+      Frame frame = clouds(plan, 1e-3, 300);
+      if (is_cut) {
+        frame.kernel.cut = 2;
+        frame.kernel.sampling = Sampling::center;
+      }
+      EXPECT_LE(largest_error(draw_once(device(), frame, CompositeShape::groups),
+                              reference::render(frame)),
+                frame.tolerance)
+          << name(plan) << (is_cut ? ", cut" : "");
+    }
+  }
+  device().traits = traits;
 }
 
 // Layers of a tile whose list is cut differ by roundings from those of a whole one.

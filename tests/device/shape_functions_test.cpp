@@ -24,7 +24,8 @@ class ShapeFunctions : public StageTest, public testing::WithParamInterface<bool
                               const std::vector<float>& x, const std::string& more = "") {
     const std::string is_full = precision == Precision::full ? "1" : "0";
     const std::string defines = "#define FUNCTION " + function + "\n#define FULL_PRECISION " +
-                                is_full + "\n" + (GetParam() ? "#define LANES_8\n" : "") + more;
+                                is_full + "\n#define NATIVE_EXP2 0\n" +
+                                (GetParam() ? "#define LANES_8\n" : "") + more;
     const Program program =
         device().programs.get({"kernels/composite/shape.cl", defines, "", shape_kernel});
     const auto results = device().pool.get<float>(x.size(), "result");

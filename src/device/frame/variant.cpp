@@ -11,12 +11,10 @@ namespace {
 
 // A block of n splats errs by n roundings at most: 64 of them by less than 1e-5, 256 by less than
 // 3e-5, but adding up smaller blocks takes rows as long as drawing them. Sums of light to three
-// digits need none beside the lists. Rows of an ordered frame are told (LayerLimits). Behind many
-// equal layers of opacity a bright background shows half as many roundings.
+// digits need none beside the lists. GPUs and ordered frames are told (LayerLimits).
 std::string splats_of_block(const Variant& v) {
-  if (v.small_blocks && v.is_ordered()) return define("SPLATS_OF_BLOCK 32u");
-  if (v.small_blocks || !v.rows) return define("SPLATS_OF_BLOCK 64u");
-  return v.full_precision && !v.is_ordered() ? define("SPLATS_OF_BLOCK 256u") : "";
+  if (!v.full_precision) return "";
+  return define(v.small_blocks ? "SPLATS_OF_BLOCK 64u" : "SPLATS_OF_BLOCK 256u");
 }
 
 // Constants that kernels ask for by `if`, or `#if` where something is declared.
@@ -30,6 +28,7 @@ std::string defines_of(const Variant& v) {
       {"EXTENDED_NUMBERS", v.extended},
       {"DOUBLE_NUMBERS", v.double_numbers && !v.extended},
       {"FULL_PRECISION", v.full_precision},
+      {"NATIVE_EXP2", v.native_exp2},
       {"FINE_PLACES", v.fine_places},
       {"KERNEL_CUT", v.kernel_cut},
       {"SAMPLING_MEAN", v.pixel_means},
@@ -67,6 +66,7 @@ Variant::Variant(const Frame& frame, const FramePlan& plan, const DeviceTraits& 
       full_precision(plan.precision != Precision::fast),
       fine_places(plan.has_fine_places && !extended),
       small_blocks(plan.adds_small_blocks),
+      native_exp2(traits.native_exp2 && !rows && plan.precision == Precision::fast),
       kernel_cut(frame.kernel.cut.has_value()),
       pixel_means(takes_pixel_means(frame)),
       vector_colors(plan.has_vector_colors),
@@ -77,10 +77,8 @@ Variant::Variant(const Frame& frame, const FramePlan& plan, const DeviceTraits& 
       clouds_around(has_clouds_around(frame)),
       stencils(plan.pyramid.has_stencils()),
       background_image(frame.background_image != nullptr) {
-  if (rows) {
-    tile_width = is_ordered() || extended ? 32 : 64;
-    tile_height = 32;
-  }
+  tile_height = rows || !extended ? 32 : 16;
+  tile_width = rows && !is_ordered() && !extended ? 64 : tile_height;
 }
 
 Variant Variant::of_slabs() const {

@@ -22,18 +22,20 @@ struct Variant {
   bool rows_of_16;      // registers hold sixteen floats
   bool double_numbers;  // the device has double precision: sharp splats' places are in it
   bool extended;        // all of the frame is in double precision
-  bool full_precision, fine_places, small_blocks;
+  bool full_precision, fine_places, small_blocks, native_exp2;
   bool kernel_cut, pixel_means;
   bool vector_colors, ellipses, copies, face_of_cube;
   bool keeps_transmittance;
   bool clouds_around;  // the camera, there may be: they are no splats
   bool stencils;       // of sums
   bool background_image;
-  std::uint32_t sums = 3;  // of what is added up: light, of slabs depth as well
-  std::uint32_t tile_width = 16, tile_height = 16;  // pixels
+  std::uint32_t sums = 3;                 // of what is added up: light, of slabs depth as well
+  std::uint32_t tile_width, tile_height;  // pixels
 
   bool is_ordered() const { return light == LightPlan::ordered; }
   std::size_t tile_pixels() const { return std::size_t{tile_width} * tile_height; }
+  // Of a group that composites a tile: each has four pixels, or eight in extended precision.
+  std::size_t items_of_tile() const { return tile_pixels() / (extended ? 8 : 4); }
   // Floats per pixel of a grid: sums, or 3 sources and 3 opacities; in extended precision a high
   // and a low part of each.
   std::uint32_t planes() const { return (is_ordered() ? 6u : sums) * (extended ? 2u : 1u); }

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "device/opencl/native_exp2.h"
 #include "device/opencl/program_text.h"
 #include "device/opencl/runtime_lock.h"
 #include "parallel/available_memory.h"
@@ -38,7 +39,9 @@ DeviceContext::DeviceContext(const compute::device& chosen)
       memory(memory_of(chosen, traits)),
       programs(context),
       pool(context, queue, timer, traits),
-      copies(context, queue, timer, traits) {}
+      copies(context, queue, timer, traits) {
+  if (traits.is_gpu) traits.native_exp2 = native_exp2_serves(*this);
+}
 
 void DeviceContext::limit_memory(std::uint64_t bytes) {
   memory.total = bytes;

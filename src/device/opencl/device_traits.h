@@ -22,6 +22,7 @@ struct DeviceTraits {
   // (docs/dev/gpu.md).
   bool draws_slabs = true;
   bool double_numbers = false;          // cl_khr_fp64
+  bool native_exp2 = false;             // serves as the polynomial would (native_exp2.h)
   std::uint64_t largest_buffer = 0;     // bytes
   std::uint64_t gpu_memory = 0;         // bytes, free or not; 0: no GPU
   std::uint32_t threads = 1;            // only memory follows from them

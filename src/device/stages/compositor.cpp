@@ -112,7 +112,7 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
                       const Planes& planes) const {
   if (part.first == part.end) return;
   const Variant& variant = context_.variant;
-  const std::size_t count = part.end - part.first, tile_pixels = variant.tile_pixels();
+  const std::size_t count = part.end - part.first;
   Launch launch(context_.device, "composite", kernels.composite.create_kernel("composite"));
   launch.value(parameters_of(part))
       .arg(context_.grids)
@@ -129,7 +129,7 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
   if (variant.rows) {
     launch.run_pieces(count);
   } else {
-    launch.run_groups(count, variant.extended ? tile_pixels / 8 : tile_pixels);
+    launch.run_groups(count, variant.items_of_tile());
   }
   if (lists.partial_count > 0) join(part, kernels, lists, partials, planes);
 }
@@ -154,9 +154,9 @@ void Compositor::join(const Part& part, const Kernels& kernels, const TileLists&
       .arg(planes.light)
       .arg(partials);
   if (extended) {
-    launch.run_groups(count, variant.tile_pixels() / 8);
+    launch.run_groups(count, variant.items_of_tile());
   } else if (!variant.rows) {
-    launch.run_groups(count, variant.tile_pixels());
+    launch.run_groups(count * variant.tile_pixels() / GROUP_ITEMS, GROUP_ITEMS);
   } else {
     launch.run_rows(variant.tile_height, count);
   }
