@@ -180,7 +180,7 @@ class TreeBuilder {
     Branch branch;
     branch.count = count;
     branch.node = merge(members, !source_.fields.empty());
-    arrays.nodes.push_back(stored_node(branch.node->moments, level));
+    arrays.nodes.push_back(stored_node(*branch.node, level));
     store_fields(*branch.node, arrays);
     arrays.children.push_back(children);
     arrays.loose.push_back(static_cast<std::uint8_t>(loose));
@@ -188,10 +188,11 @@ class TreeBuilder {
   }
 
   void store_fields(const TreeMember& node, LevelArrays& arrays) const {
+    const TreeSamples& sampled = node.samples;
     for (std::size_t f = 0; f < source_.fields.size(); ++f) {
       std::array<float, sampled_members> values{};
       for (std::size_t k = 0; k < sampled_members; ++k)
-        values[k] = node.samples.samples[k].values[f];
+        values[k] = sampled.samples[std::min(k, sampled.count - 1)].values[f];
       arrays.fields.push_back(SampledField::of(values.data()));
     }
   }

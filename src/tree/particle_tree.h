@@ -21,7 +21,8 @@ struct TreeNode {
   std::uint16_t deviation = 0;  // of the members' places along one axis: root mean square
   std::uint16_t size = 0;       // root mean square of h
   std::uint8_t third = 0, fourth = 0, uneven = 0;  // roots of NodeShape's
-  std::uint8_t widest = 0, unused = 0;             // h, rounded up
+  std::uint8_t widest = 0;                         // h, rounded up
+  std::uint8_t members = 0;                        // all are sampled, alike in flux; 0: only some
   std::uint8_t reach = 0;                          // NodeMoments::reach, rounded up
   float flux = 0;                                  // sum of masses, of h, or of density times h^3
 };
