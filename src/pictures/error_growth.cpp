@@ -108,7 +108,7 @@ double error_growth(FinishSettings finish, double gamma, double gain) {
   Image shown = drawn;
   adjust_light(shown, finish, gamma);
   const std::vector<double> units = units_of(drawn, shown, finish, gamma);
-  double growth = 1;
+  double growth = 0;
   // The other four sign patterns are these upside down.
   for (unsigned signs = 0; signs < 4; ++signs) {
     Image other = image_of(with_errors(colors, signs, gain));

@@ -4,7 +4,7 @@
 
 namespace splotchcl {
 
-// By how much, at least 1, relative errors of light grow where it is finished: by exposure, balance
+// By how much relative errors of light grow where it is finished: by exposure, balance
 // of white, tone, highlights, saturation and contrast. A channel errs by a part of its light or of
 // 1 / `gain`, whichever is more, and what is shown counts in units of white or of its pixel's
 // brightest channel. Found by finishing colors of all kinds with errors of all signs. A contrast

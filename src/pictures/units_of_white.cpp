@@ -12,7 +12,9 @@ namespace splotchcl {
 namespace {
 
 constexpr double largest_gain = 1073741824;  // 2^30
-constexpr double most_light = 1e30;          // in single precision, with room for sums
+constexpr double least_gain = 1e-3, least_growth = 0.1;
+constexpr double largest_tolerance = 1;
+constexpr double most_light = 1e30;  // in single precision, with room for sums
 
 void multiply_light(Image& image, double factor) {
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -66,12 +68,25 @@ Frame brighter(Frame frame, double factor) {
 
 }  // namespace
 
-DisplayGain display_gain(const FinishSettings& finish, double gamma) {
+namespace {
+
+DisplayGain gain_from(const FinishSettings& finish, double gamma, double least_of_light,
+                      double least_of_errors) {
   const double slope = steepest_slope(finish.tone, finish.white.value());
   DisplayGain gain;
-  gain.of_light = std::clamp(std::exp2(*finish.exposure) * slope, 1.0, largest_gain);
-  gain.of_errors = error_growth(finish, gamma, gain.of_light);
+  gain.of_light = std::clamp(std::exp2(*finish.exposure) * slope, least_of_light, largest_gain);
+  gain.of_errors = std::max(least_of_errors, error_growth(finish, gamma, gain.of_light));
   return gain;
+}
+
+}  // namespace
+
+DisplayGain display_gain(const FinishSettings& finish, double gamma) {
+  return gain_from(finish, gamma, 1, 1);
+}
+
+DisplayGain display_gain_of_shown(const FinishSettings& finish, double gamma) {
+  return gain_from(finish, gamma, least_gain, least_growth);
 }
 
 bool keeps_promise_at(double gain, double estimated_error_of_promise) {
@@ -80,12 +95,12 @@ bool keeps_promise_at(double gain, double estimated_error_of_promise) {
 }
 
 DrawFrame with_errors_counted(const DrawFrame& draw, const DisplayGain& gain) {
-  if (!(gain.total() > 1)) return draw;
+  if (gain.total() == 1) return draw;
   return [draw, gain](const Frame& frame) {
     if (frame.tolerance == 0) return draw(frame);  // it is as exact as it can be
     const double factor = has_gray_absorption(frame) ? 1 : power_for(frame, gain.of_light);
     Frame counted = brighter(frame, factor);
-    counted.tolerance *= factor / gain.total();
+    counted.tolerance = std::min(largest_tolerance, frame.tolerance * factor / gain.total());
     Image image = draw(counted);
     multiply_light(image, 1 / factor);
     return image;
