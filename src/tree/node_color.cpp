@@ -52,7 +52,7 @@ NodeColor node_color(const TreePart& part, const TreeLevel& level, std::uint64_t
   }
   const SampledColors colors =
       sampled_colors(part, level.fields + node * part.tree().fields.size());
-  const std::uint8_t members = level.nodes[node].members;
+  const std::uint8_t members = level.nodes[node].all_sampled();
   const std::size_t count =
       members > 0 ? std::min<std::size_t>(members, sampled_members) : sampled_members;
   const float share = 1 / static_cast<float>(count);

@@ -124,7 +124,7 @@ TEST(BuildTree, KeepsTheValuesOfUpToEightMembersOfEqualFlux) {
       std::vector<std::uint32_t> places;
       collect(*tree, level, node, places);
       const std::size_t members = places.size() <= sampled_members ? places.size() : 0;
-      ASSERT_EQ(tree->levels[level].nodes[node].members, members);
+      ASSERT_EQ(tree->levels[level].nodes[node].all_sampled(), members);
       if (members == 0) continue;
       ++few;
       const std::vector<double> exact = values_of(matter, places);
@@ -178,6 +178,49 @@ TEST(BuildTree, SamplesMembersNearerToTheirMeanThanAtRandom) {
   }
   EXPECT_GT(at_random, 0);
   EXPECT_LT(squares, at_random);
+}
+
+// Calls look(level, node, its cell along each axis) for a node and all below it.
+template <class Look>
+void walk(const TreeOfType& tree, std::size_t level, std::uint64_t node,
+          const std::array<std::uint32_t, 3>& cell, const Look& look) {
+  look(level, node, cell);
+  std::uint64_t child = tree.levels[level].first_child(node);
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    if ((tree.levels[level].children[node] >> octant & 1U) == 0) continue;
+    std::array<std::uint32_t, 3> below{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      below[axis] = 2 * cell[axis] + (octant >> axis & 1U);
+    walk(tree, level + 1, child++, below, look);
+  }
+}
+
+TEST(BuildTree, HasNodesAtTheCentersOfTheirParticlesAndMergesTheRestOfEachNode) {
+  const Matter matter = clumps(100000, 12);
+  const auto tree = tree_of(matter);
+  int rests = 0;
+  walk(*tree, 0, 0, {}, [&](std::size_t level, std::uint64_t node, const auto& cell) {
+    const TreeLevel& of_level = tree->levels[level];
+    const TreeNode& stored = of_level.nodes[node];
+    std::vector<std::uint32_t> places;
+    collect(*tree, level, node, places);
+    const int cell_level = stored.cell_level(level);
+    const double side = std::ldexp(tree->side, -cell_level);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double center = 0;
+      for (const std::uint32_t place : places)
+        center += static_cast<double>(matter.position[3 * place + axis]);
+      center /= static_cast<double>(places.size());
+      const double at = (cell[axis] >> (stored.is_rest() ? 1 : 0)) +
+                        (static_cast<double>(stored.place[axis]) + 0.5) * 0x1p-16;
+      ASSERT_NEAR(tree->origin.a[axis] + side * at, center, 1e-4 * side + 1e-6);
+    }
+    rests += stored.is_rest() ? 1 : 0;
+    if (level > 5 && of_level.children[node] != 0) {
+      ASSERT_LT(of_level.loose[node], 4);
+    }
+  });
+  EXPECT_GT(rests, 100);
 }
 
 TEST(BuildTree, LeavesBadParticlesOutAndCountsThem) {
