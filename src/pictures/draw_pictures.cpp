@@ -69,17 +69,23 @@ class Views {
     }
   }
 
-  DrawnPictures draw(const DrawFrame& draw_alike, const KeepsPromise& keeps_promise) const {
+  DrawnPictures draw(const DrawFrame& draw_alike, const KeepsPromise& keeps_promise,
+                     const LooseDrawing& loose) const {
     DrawnPictures drawn;
     drawn.finish = scene_.finish;
     std::vector<Image> images;
-    if (draws_all_first()) images = draw_all(draw_alike);
+    const bool is_loose = is_loosened(loose);
+    if (is_loose) {
+      images = draw_loosely(draw_alike, loose.draw_roughly);
+    } else if (draws_all_first()) {
+      images = draw_all(draw_alike);
+    }
     find_tone(images, drawn);
     const DisplayGain gain =
         is_shown_ ? display_gain(drawn.finish, scene_.image.gamma) : DisplayGain();
     const DrawFrame draw = with_errors_counted(draw_alike, gain);
-    const bool draws_again =
-        gain.total() > 1 && !images.empty() && keeps_promise && !keeps_promise(gain.total());
+    const bool draws_again = !is_loose && gain.total() > 1 && !images.empty() && keeps_promise &&
+                             !keeps_promise(gain.total());
     const std::vector<PictureSize> sizes =
         picture_sizes(scene_, frame_.crop.width, frame_.crop.height);
     for (const PictureSize& size : sizes)
@@ -120,6 +126,36 @@ class Views {
   // Where they are kept as drawn, decide the tone together, or share the moments that are loaded.
   bool draws_all_first() const {
     return keeps_light_ || has_open_tone(scene_.finish) || !moments_.empty();
+  }
+
+  // Only for what a display shows: light that is kept as drawn counts as it is.
+  bool is_loosened(const LooseDrawing& loose) const {
+    return is_shown_ && !keeps_light_ && moments_.empty() && loose.serves && loose.serves(frame_);
+  }
+
+  // With errors counted as they are shown, also where that is less often. What exposure makes of
+  // them is known beforehand from rough light, and found again from what was drawn.
+  std::vector<Image> draw_loosely(const DrawFrame& draw, const DrawFrame& draw_roughly) const {
+    constexpr double margin = 1.15;  // of exposures that are found from rough light
+    const double gamma = scene_.image.gamma;
+    const bool is_open = has_open_tone(scene_.finish);
+    FinishSettings finish = scene_.finish;
+    if (is_open) finish = with_tone_of_all(draw_places(frame_, draw_roughly));
+    while (true) {
+      DisplayGain gain = display_gain_of_shown(finish, gamma);
+      if (is_open) gain.of_errors *= margin;
+      std::vector<Image> images = draw_places(frame_, with_errors_counted(draw, gain));
+      if (!is_open) return images;
+      finish = with_tone_of_all(images);
+      if (display_gain_of_shown(finish, gamma).total() <= gain.total()) return images;
+    }
+  }
+
+  FinishSettings with_tone_of_all(const std::vector<Image>& images) const {
+    LightHistogram light;
+    for (const Image& image : images)
+      light.add(image);
+    return with_any_tone(scene_.finish, scene_.image.gamma, light);
   }
 
   std::vector<Image> draw_all(const DrawFrame& draw) const {
@@ -201,7 +237,8 @@ void change_both(Picture& picture, const Change& change) {
 DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                             const DrawFrame& draw, std::vector<std::string>& notes,
                             OtherScenes& other_scenes, PictureLight light,
-                            const KeepsPromise& keeps_promise, const std::vector<Moment>& moments) {
+                            const KeepsPromise& keeps_promise, const std::vector<Moment>& moments,
+                            const LooseDrawing& loose) {
   // An anaglyph is what a display shows through glasses, and nothing else.
   if (is_anaglyph(scene)) light = PictureLight::shown;
   const std::optional<Scene> other = cross_fade_scene(scene);
@@ -212,7 +249,7 @@ DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const Snapsh
     drawn.pictures =
         other_scenes.draw(file, *other, frame.crop, draw, light, keeps_promise, notes, moments);
   } else {
-    drawn = Views(scene, frame, snapshot, light, moments).draw(draw, keeps_promise);
+    drawn = Views(scene, frame, snapshot, light, moments).draw(draw, keeps_promise, loose);
   }
   std::vector<Picture>& pictures = drawn.pictures;
   if (other && amount < 1) {

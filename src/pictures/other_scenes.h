@@ -53,6 +53,7 @@ DrawnPictures draw_pictures(const Scene& scene, const Frame& frame, const Snapsh
                             const DrawFrame& draw, std::vector<std::string>& notes,
                             OtherScenes& other_scenes, PictureLight light = PictureLight::shown,
                             const KeepsPromise& keeps_promise = {},
-                            const std::vector<Moment>& moments = {});
+                            const std::vector<Moment>& moments = {},
+                            const LooseDrawing& loose = {});
 
 }  // namespace splotchcl

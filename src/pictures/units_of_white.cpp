@@ -99,11 +99,11 @@ bool mixes_nothing(const FinishSettings& finish) {
          finish.saturation == 1 && finish.contrast == 1;
 }
 
-// By how much, at least 1, relative errors of light grow where it is finished: by exposure, balance
-// of white, tone, highlights, saturation and contrast. A channel errs by a part of its light or of
-// 1 / `gain`, whichever is more, and what is shown counts in units of white or of its pixel's
-// brightest channel. Found by finishing colors of all kinds with errors of all signs. A contrast
-// below 1, which is infinitely steep in the dark, counts as 1. Exposure and white are known.
+// By how much relative errors of light grow where it is finished: by exposure, balance of white,
+// tone, highlights, saturation and contrast. A channel errs by a part of its light or of 1 /
+// `gain`, whichever is more, and what is shown counts in units of white or of its pixel's brightest
+// channel. Found by finishing colors of all kinds with errors of all signs. A contrast below 1,
+// which is infinitely steep in the dark, counts as 1. Exposure and white are known.
 double error_growth(FinishSettings finish, double gamma, double gain) {
   finish.contrast = std::max(1.0, finish.contrast);
   if (mixes_nothing(finish)) return 1;
@@ -113,7 +113,7 @@ double error_growth(FinishSettings finish, double gamma, double gain) {
   Image shown = drawn;
   adjust_light(shown, finish, gamma);
   const std::vector<double> units = units_of(drawn, shown, finish, gamma);
-  double growth = 1;
+  double growth = 0;
   // The other four sign patterns are these upside down.
   for (unsigned signs = 0; signs < 4; ++signs) {
     Image other = image_of(with_errors(colors, signs, gain));
@@ -124,7 +124,9 @@ double error_growth(FinishSettings finish, double gamma, double gain) {
 }
 
 constexpr double largest_gain = 1073741824;  // 2^30
-constexpr double most_light = 1e30;          // in single precision, with room for sums
+constexpr double least_gain = 1e-3, least_growth = 0.1;
+constexpr double largest_tolerance = 1;
+constexpr double most_light = 1e30;  // in single precision, with room for sums
 
 void multiply_light(Image& image, double factor) {
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -176,14 +178,23 @@ Frame brighter(Frame frame, double factor) {
   return frame;
 }
 
+DisplayGain gain_from(const FinishSettings& finish, double gamma, double least_of_light,
+                      double least_of_errors) {
+  const double slope = steepest_slope(finish.tone, finish.white.value());
+  DisplayGain gain;
+  gain.of_light = std::clamp(std::exp2(*finish.exposure) * slope, least_of_light, largest_gain);
+  gain.of_errors = std::max(least_of_errors, error_growth(finish, gamma, gain.of_light));
+  return gain;
+}
+
 }  // namespace
 
 DisplayGain display_gain(const FinishSettings& finish, double gamma) {
-  const double slope = steepest_slope(finish.tone, finish.white.value());
-  DisplayGain gain;
-  gain.of_light = std::clamp(std::exp2(*finish.exposure) * slope, 1.0, largest_gain);
-  gain.of_errors = error_growth(finish, gamma, gain.of_light);
-  return gain;
+  return gain_from(finish, gamma, 1, 1);
+}
+
+DisplayGain display_gain_of_shown(const FinishSettings& finish, double gamma) {
+  return gain_from(finish, gamma, least_gain, least_growth);
 }
 
 bool keeps_promise_at(double gain, double estimated_error_of_promise) {
@@ -192,12 +203,12 @@ bool keeps_promise_at(double gain, double estimated_error_of_promise) {
 }
 
 DrawFrame with_errors_counted(const DrawFrame& draw, const DisplayGain& gain) {
-  if (!(gain.total() > 1)) return draw;
+  if (gain.total() == 1) return draw;
   return [draw, gain](const Frame& frame) {
     if (frame.tolerance == 0) return draw(frame);  // it is as exact as it can be
     const double factor = has_gray_absorption(frame) ? 1 : power_for(frame, gain.of_light);
     Frame counted = brighter(frame, factor);
-    counted.tolerance *= factor / gain.total();
+    counted.tolerance = std::min(largest_tolerance, frame.tolerance * factor / gain.total());
     Image image = draw(counted);
     multiply_light(image, 1 / factor);
     return image;

@@ -21,6 +21,10 @@ struct DisplayGain {
 // Exposure and white are known.
 DisplayGain display_gain(const FinishSettings& finish, double gamma);
 
+// The same without its lower limits: below 1 where light is shown darker than it is drawn, so that
+// more of what it errs by serves.
+DisplayGain display_gain_of_shown(const FinishSettings& finish, double gamma);
+
 // Draws frames so that errors count as often.
 DrawFrame with_errors_counted(const DrawFrame& draw, const DisplayGain& gain);
 
@@ -31,5 +35,12 @@ bool keeps_promise_at(double gain, double estimated_error_of_promise);
 // Asked after frames were drawn: whether they keep their promise where errors count so many times.
 // Where they do not, or it is not known, they are drawn again.
 using KeepsPromise = std::function<bool(double gain)>;
+
+// Where errors that a display cannot show save time: of merged particles as many are drawn as what
+// may be erred by needs. Particles take as long.
+struct LooseDrawing {
+  std::function<bool(const Frame&)> serves;
+  DrawFrame draw_roughly;  // at little cost, for the light that exposure is found from
+};
 
 }  // namespace splotchcl

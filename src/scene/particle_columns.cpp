@@ -117,18 +117,50 @@ bool have_same_columns(const Particles& known, const Particles& particles) {
 
 namespace {
 
+// Of places from `first` on, those that are read together: many, and from the least to the largest
+// of them it is no farther than a look at each of them takes. Else the first alone.
+std::size_t end_of_run(const std::vector<std::uint64_t>& places, std::size_t first,
+                       std::uint64_t& from, std::uint64_t& to) {
+  constexpr std::uint64_t values_per_look = 16, longest = 65536;
+  constexpr std::size_t fewest = 16;
+  from = to = places[first];
+  std::size_t end = first + 1;
+  while (end < places.size()) {
+    const std::uint64_t least = std::min(from, places[end]), largest = std::max(to, places[end]);
+    if (largest - least > std::min<std::uint64_t>(longest, values_per_look * (end - first))) break;
+    from = least;
+    to = largest;
+    ++end;
+  }
+  if (end - first >= fewest) return end;
+  from = to = places[first];
+  return first + 1;
+}
+
+void pick_from_source(const ColumnSource& source, std::size_t width,
+                      const std::vector<std::uint64_t>& places, float* to) {
+  std::vector<float> run;
+  for (std::size_t next = 0; next < places.size();) {
+    std::uint64_t least = 0, largest = 0;
+    const std::size_t end = end_of_run(places, next, least, largest);
+    run.resize(width * static_cast<std::size_t>(largest - least + 1));
+    source.make(width * static_cast<std::size_t>(least),
+                width * static_cast<std::size_t>(largest + 1), run.data());
+    for (; next < end; ++next)
+      to = std::copy_n(&run[width * static_cast<std::size_t>(places[next] - least)], width, to);
+  }
+}
+
 Column picked(const Column& column, std::size_t width, const std::vector<std::uint64_t>& places) {
   if (!column.is_array() || column.size() == 0) return column;
   const auto source = column.source();
   std::vector<float> values(width * places.size());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const std::size_t first = width * static_cast<std::size_t>(places[k]);
-    float* const to = values.data() + width * k;
-    if (source) {
-      source->make(first, first + width, to);
-    } else {
-      std::copy_n(column.data() + first, width, to);
-    }
+  if (source) {
+    pick_from_source(*source, width, places, values.data());
+  } else {
+    float* to = values.data();
+    for (const std::uint64_t place : places)
+      to = std::copy_n(column.data() + width * static_cast<std::size_t>(place), width, to);
   }
   return Column::owning(std::move(values));
 }

@@ -20,7 +20,8 @@
 namespace splotchcl {
 namespace {
 
-constexpr int cell_level = 5;  // subtrees below it are built alone
+constexpr int cell_level = 5;            // subtrees below it are built alone
+constexpr std::size_t most_loose = 255;  // of a node
 constexpr std::size_t cells = std::size_t{1} << (3 * cell_level);
 
 // Part of the tree below one cell: a node, or too few particles for one.
@@ -150,8 +151,49 @@ class TreeBuilder {
       parts.push_back(std::move(all));
       octant_of_part.push_back(0);
     }
-    return joined(std::move(parts), octant_of_part, branch.count, level,
-                  levels[static_cast<std::size_t>(level)]);
+    const auto own = static_cast<std::size_t>(level);
+    if (own + 1 < levels.size()) merge_rest(parts, octant_of_part, level, levels[own + 1]);
+    return joined(std::move(parts), octant_of_part, branch.count, level, levels[own]);
+  }
+
+  // Makes one node of the parts that are too few for nodes, in the level below, where they are
+  // enough together and some other part is a node.
+  void merge_rest(std::vector<Branch>& parts, std::vector<std::size_t>& octant_of_part, int level,
+                  LevelArrays& below) const {
+    std::size_t loose = 0, octant = 0, nodes_behind = 0;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      if (parts[p].node) {
+        ++nodes_behind;
+        continue;
+      }
+      loose += parts[p].loose.size();
+      octant = octant_of_part[p];
+      nodes_behind = 0;
+    }
+    const bool has_nodes =
+        std::any_of(parts.begin(), parts.end(), [](const Branch& part) { return part.node; });
+    if (!has_nodes || loose < options_.least || loose > most_loose) return;
+    Branch rest;
+    LevelArrays arrays;
+    std::vector<Branch> nodes;
+    std::vector<std::size_t> octants_of_nodes;
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      rest.count += parts[p].node ? 0 : parts[p].count;
+      for (TreeMember& member : parts[p].loose)
+        rest.loose.push_back(std::move(member));
+      arrays.order.insert(arrays.order.end(), parts[p].places.begin(), parts[p].places.end());
+      if (!parts[p].node) continue;
+      nodes.push_back(std::move(parts[p]));
+      octants_of_nodes.push_back(octant_of_part[p]);
+    }
+    rest.node = merge(rest.loose, !source_.fields.empty());
+    store(*rest.node, level, 0, loose, arrays);
+    arrays.nodes.back().members |= TreeNode::rest_bit;
+    below.insert_before(nodes_behind, arrays);
+    nodes.push_back(std::move(rest));
+    octants_of_nodes.push_back(octant);
+    parts = std::move(nodes);
+    octant_of_part = std::move(octants_of_nodes);
   }
 
   // A node of the parts in its octants.
@@ -163,7 +205,10 @@ class TreeBuilder {
     for (std::size_t p = 0; p < parts.size(); ++p) {
       if (parts[p].node) {
         children = static_cast<std::uint8_t>(children | 1U << octant_of_part[p]);
-        members.push_back(std::move(*parts[p].node));
+        if (parts[p].loose.empty()) members.push_back(std::move(*parts[p].node));
+        // Else the rest, whose particles are sampled once.
+        for (TreeMember& member : parts[p].loose)
+          members.push_back(std::move(member));
         continue;
       }
       loose += parts[p].loose.size();
@@ -171,7 +216,7 @@ class TreeBuilder {
         members.push_back(std::move(member));
       arrays.order.insert(arrays.order.end(), parts[p].places.begin(), parts[p].places.end());
     }
-    if (loose > 255) {
+    if (loose > most_loose) {
       throw UsageError(fmt::format(
           "type {}: found {} particles in one place, expected at most 255: no tree tells them "
           "apart; draw this snapshot without one",
@@ -180,18 +225,24 @@ class TreeBuilder {
     Branch branch;
     branch.count = count;
     branch.node = merge(members, !source_.fields.empty());
-    arrays.nodes.push_back(stored_node(branch.node->moments, level));
-    store_fields(*branch.node, arrays);
-    arrays.children.push_back(children);
-    arrays.loose.push_back(static_cast<std::uint8_t>(loose));
+    store(*branch.node, level, children, loose, arrays);
     return branch;
   }
 
+  void store(const TreeMember& node, int level, std::uint8_t children, std::size_t loose,
+             LevelArrays& arrays) const {
+    arrays.nodes.push_back(stored_node(node, level));
+    store_fields(node, arrays);
+    arrays.children.push_back(children);
+    arrays.loose.push_back(static_cast<std::uint8_t>(loose));
+  }
+
   void store_fields(const TreeMember& node, LevelArrays& arrays) const {
+    const TreeSamples& sampled = node.samples;
     for (std::size_t f = 0; f < source_.fields.size(); ++f) {
       std::array<float, sampled_members> values{};
       for (std::size_t k = 0; k < sampled_members; ++k)
-        values[k] = node.samples.samples[k].values[f];
+        values[k] = sampled.samples[std::min(k, sampled.count - 1)].values[f];
       arrays.fields.push_back(SampledField::of(values.data()));
     }
   }

@@ -24,6 +24,9 @@ struct MergedDrawing {
   double found = 0;
 };
 
+// Whether so many particles lie over a pixel that a tree may take less time than they do.
+bool has_particles_for_tree(const Frame& frame);
+
 // Whether a tree serves some of a frame, and so many particles lie over a pixel that it takes less
 // time than they do (docs/dev/performance.md).
 bool tree_pays(const Frame& frame);

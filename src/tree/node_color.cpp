@@ -8,8 +8,6 @@
 namespace splotchcl {
 namespace {
 
-constexpr float share = 1.0f / sampled_members;
-
 struct SampledColors {
   std::array<PaletteWay::Step, sampled_members> steps;
   std::array<float, sampled_members> factors;
@@ -32,7 +30,9 @@ SampledColors sampled_colors(const TreePart& part, const SampledField* sampled) 
   return colors;
 }
 
-// Between neighbours lies what the eighth may hold.
+// Between neighbours lies what the eighth may hold. A step of the palette somewhere in an eighth is
+// in two such spreads, and its mean variance there is a sixth of its square.
+constexpr float variance_of_spread = 1.0f / 12;
 float spread_around(const SampledColors& colors, std::size_t k) {
   const std::size_t before = k > 0 ? k - 1 : k;
   const std::size_t after = k + 1 < sampled_members ? k + 1 : k;
@@ -52,17 +52,22 @@ NodeColor node_color(const TreePart& part, const TreeLevel& level, std::uint64_t
   }
   const SampledColors colors =
       sampled_colors(part, level.fields + node * part.tree().fields.size());
+  const std::uint8_t members = level.nodes[node].all_sampled();
+  const std::size_t count =
+      members > 0 ? std::min<std::size_t>(members, sampled_members) : sampled_members;
+  const float share = 1 / static_cast<float>(count);
   color.mean = {0, 0, 0};
   std::array<float, 3> squares{};
   float variance = 0;
-  for (std::size_t k = 0; k < sampled_members; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t c = 0; c < 3; ++c) {
       const float value = colors.steps[k].color[c] * colors.factors[k];
       color.mean[c] += value * share;
       squares[c] += value * value * share;
     }
+    if (members > 0) continue;
     const float spread = spread_around(colors, k);
-    variance += spread * spread / 8 * share * share;
+    variance += variance_of_spread * spread * spread * share * share;
   }
   color.variance = static_cast<double>(variance);
   for (std::size_t c = 0; c < 3; ++c) {

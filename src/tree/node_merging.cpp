@@ -38,18 +38,42 @@ double random_of(const NodeMoments& moments, std::size_t k) {
   return static_cast<double>(hash_of(hash.value()) >> 11) * 0x1p-53;
 }
 
-// Eight that stand for an eighth of the flux each, in the order of the first field: the one in
-// whose share a random place of each eighth lies, so that any function of the fields has the
-// members' mean.
+// Where in the k-th eighth. Neighbors' places mirror each other, so that what rises evenly from
+// the one to the other has its mean.
+double place_in_eighth(const NodeMoments& moments, std::size_t k) {
+  const double random = random_of(moments, k / 2);
+  return k % 2 == 0 ? random : 1 - random;
+}
+
+bool are_alike_in_flux(const std::vector<TreeSample>& samples) {
+  constexpr double alike = 1e-4;
+  const auto [least, largest] =
+      std::minmax_element(samples.begin(), samples.end(),
+                          [](const TreeSample& a, const TreeSample& b) { return a.flux < b.flux; });
+  return largest->flux - least->flux <= alike * largest->flux;
+}
+
+// Up to eight members that are alike in flux. Of others eight that stand for an eighth of the flux
+// each, in the order of the first field: the one in whose share a random place of each eighth lies,
+// so that any function of the fields has the members' mean.
 TreeSamples resampled(const std::vector<TreeMember>& members, const NodeMoments& moments) {
   std::vector<TreeSample> all;
+  bool are_all = true;
   for (const TreeMember& member : members) {
     const auto* const first = member.samples.samples.data();
     all.insert(all.end(), first, first + member.samples.count);
+    are_all = are_all && member.samples.are_all;
   }
   std::stable_sort(all.begin(), all.end(), [](const TreeSample& a, const TreeSample& b) {
     return a.values[0] < b.values[0];
   });
+  TreeSamples chosen;
+  chosen.are_all = are_all && all.size() <= sampled_members && are_alike_in_flux(all);
+  if (chosen.are_all) {
+    for (const TreeSample& sample : all)
+      chosen.add(sample);
+    return chosen;
+  }
   double total = 0;
   for (const TreeSample& sample : all)
     total += sample.flux;
@@ -58,11 +82,11 @@ TreeSamples resampled(const std::vector<TreeMember>& members, const NodeMoments&
     for (TreeSample& sample : all)
       total += sample.flux = 1;
   }
-  TreeSamples chosen;
   double before = 0;
   std::size_t next = 0;
   for (std::size_t k = 0; k < sampled_members; ++k) {
-    const double at = (static_cast<double>(k) + random_of(moments, k)) * total / sampled_members;
+    const double at =
+        (static_cast<double>(k) + place_in_eighth(moments, k)) * total / sampled_members;
     while (next + 1 < all.size() && before + all[next].flux <= at)
       before += all[next++].flux;
     TreeSample sample = all[next];
@@ -89,7 +113,8 @@ TreeMember merge(const std::vector<TreeMember>& members, bool has_fields) {
   return node;
 }
 
-TreeNode stored_node(const NodeMoments& moments, int level) {
+TreeNode stored_node(const TreeMember& merged, int level) {
+  const NodeMoments& moments = merged.moments;
   TreeNode node;
   const double cell = std::exp2(-level);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -105,6 +130,7 @@ TreeNode stored_node(const NodeMoments& moments, int level) {
   node.fourth = rough_bits(std::sqrt(std::sqrt(shape.fourth)) / cell);
   node.uneven = rough_bits(std::sqrt(shape.uneven) / cell);
   node.widest = wide_bits(moments.widest);
+  if (merged.samples.are_all) node.members = static_cast<std::uint8_t>(merged.samples.count);
   node.reach = rough_bits(1.05 * moments.reach / cell);  // more than is rounded off
   node.flux = static_cast<float>(moments.flux);
   return node;

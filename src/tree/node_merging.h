@@ -19,6 +19,7 @@ struct TreeSample {
 struct TreeSamples {
   std::array<TreeSample, sampled_members> samples{};
   std::size_t count = 0;
+  bool are_all = true;  // members, each with its own flux
 
   void add(const TreeSample& sample) { samples[count++] = sample; }
 };
@@ -32,6 +33,6 @@ struct TreeMember {
 TreeMember merge(const std::vector<TreeMember>& members, bool has_fields);
 
 // What a tree keeps of a node of the level.
-TreeNode stored_node(const NodeMoments& moments, int level);
+TreeNode stored_node(const TreeMember& node, int level);
 
 }  // namespace splotchcl

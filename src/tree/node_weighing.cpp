@@ -51,7 +51,7 @@ WeighedNode NodeWeigher::weigh(const TreePart& part, const TreeItem& item,
                                std::size_t level) const {
   const TreeOfType& tree = part.tree();
   const TreeNode& node = tree.levels[level].nodes[item.node];
-  const double cell = std::ldexp(1.0, -static_cast<int>(level));
+  const double cell = std::ldexp(1.0, -node.cell_level(level));
   const double reach = tree.side * cell * rough_of_bits(node.reach);
   const double widest =
       tree.side * part.deviation_per_h * std::sqrt(2.0) * smoothing_of_bits(node.widest);
@@ -132,7 +132,7 @@ void NodeWeigher::weigh_error(const TreePart& part, const TreeItem& item, std::s
                               const Projected& at, WeighedNode& weighed) const {
   const TreeLevel& of_level = part.tree().levels[level];
   const TreeNode& node = of_level.nodes[item.node];
-  const double cell = std::ldexp(1.0, -static_cast<int>(level));
+  const double cell = std::ldexp(1.0, -node.cell_level(level));
   const ShownShape shape = shown_shape(part, node, cell, at.pixels_per_length);
   const double footprint2 = square(frame_.kernel.footprint_pixels);
   const double seen2 = footprint2 + shape.size2;

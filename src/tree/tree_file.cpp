@@ -25,7 +25,10 @@ namespace {
 // type its sections, each from a multiple of 64 bytes on; last the checksums of chunks of all that
 // comes before, and theirs.
 constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
-                           'l', ' ', 't', ' ', '1', '\n', 0,   0};
+                           'l', ' ', 't', ' ', '2', '\n', 0,   0};
+// Of trees without nodes of the rest, which are made anew.
+constexpr FileMark older_mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
+                                 'l', ' ', 't', ' ', '1', '\n', 0,   0};
 constexpr std::uint64_t alignment = 64, chunk_bytes = 1U << 20,
                         most_checked_bytes = std::uint64_t{1} << 30;
 constexpr std::size_t name_bytes = 64;
@@ -252,7 +255,7 @@ bool tree_is_there(const SnapshotInfo& info) {
 
 void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees) {
   const std::filesystem::path path = tree_path(info);
-  if (is_another_file(path, mark)) {
+  if (is_another_file(path, mark) && is_another_file(path, older_mark)) {
     throw UsageError(fmt::format(
         "{}: found a file that is no tree, expected none or a tree; move it", path.string()));
   }

@@ -47,11 +47,12 @@ std::optional<Vec3> place_of(const TreePart& part, const TreeItem& item, std::si
                              double reach) {
   const TreeOfType& tree = part.tree();
   const TreeNode& node = tree.levels[level].nodes[item.node];
-  const double cell = std::ldexp(tree.side, -static_cast<int>(level));
+  const double cell = std::ldexp(tree.side, -node.cell_level(level));
+  const unsigned of_parent = node.is_rest() ? 1 : 0;
   Vec3 place = {{0, 0, 0}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double part_of_cell = (static_cast<double>(node.place[axis]) + 0.5) * 0x1p-16;
-    place.a[axis] = tree.origin.a[axis] + cell * (item.cell[axis] + part_of_cell);
+    place.a[axis] = tree.origin.a[axis] + cell * ((item.cell[axis] >> of_parent) + part_of_cell);
     const double period = part.of_component->period.a[axis];
     if (!(period > 0)) continue;
     const double center = part.of_component->center.a[axis];

@@ -101,6 +101,72 @@ TEST(DisplayGain, LoosensNoPromise) {
   EXPECT_EQ(display_gain(finish, 2.2).total(), 1);
 }
 
+TEST(DisplayGain, OfShownLightAloneIsBelowOneWhereItIsDarkened) {
+  FinishSettings finish;
+  finish.exposure = -3;
+  EXPECT_EQ(display_gain_of_shown(finish, 2.2).total(), 0.125);
+  finish.exposure = 7;
+  EXPECT_EQ(display_gain_of_shown(finish, 2.2).total(), 128);
+}
+
+// Every pixel errs by all that is allowed, up or down.
+Image erring(Image exact, double tolerance) {
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+    float& value = exact.pixels[i];
+    const double error = tolerance * std::max(1.0, static_cast<double>(value));
+    value += static_cast<float>((i / 4 + i) % 2 == 0 ? error : -error);
+  }
+  return exact;
+}
+
+double brightest(const Image& image, std::size_t pixel) {
+  const float* const channels = &image.pixels[4 * pixel];
+  return static_cast<double>(std::max({channels[0], channels[1], channels[2]}));
+}
+
+// The largest in units of white or of the pixel's brightest channel, with saturation and contrast
+// or without.
+double error_in_units(const Image& light, const Image& exact, FinishSettings finish) {
+  const Image picture = shown(light, finish), reference = shown(exact, finish);
+  finish.saturation = finish.contrast = 1;
+  const Image toned = shown(exact, finish);
+  double worst = 0;
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const double unit = std::max({1.0, brightest(reference, i / 4), brightest(toned, i / 4)});
+    const double error = std::abs(static_cast<double>(picture.pixels[i] - reference.pixels[i]));
+    if (i % 4 != 3) worst = std::max(worst, error / unit);
+  }
+  return worst;
+}
+
+// What random finishes show of light that errs as much as display_gain_of_shown() lets it.
+TEST(DisplayGain, OfShownLightKeepsThePromise) {
+  Random random(7);
+  double largest = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    FinishSettings finish = random_finish(random);
+    finish.exposure = random.uniform(-6, 0);
+    Image exact(64, 1);
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i)
+      exact.pixels[i] = static_cast<float>(random.logarithmic(1e-3, 300));
+    Frame frame = empty_frame(64, 1);
+    frame.tolerance = 1e-3;
+    frame.background = {1, 1, 1};
+    const auto draw = [&](const Frame& counted) {
+      Image light = exact;
+      const double factor = counted.background[0];
+      for (float& value : light.pixels)
+        value *= static_cast<float>(factor);
+      return erring(light, counted.tolerance);
+    };
+    const Image light = with_errors_counted(draw, display_gain_of_shown(finish, 2.2))(frame);
+    const double error = error_in_units(light, exact, finish) / frame.tolerance;
+    EXPECT_LE(error, 1.05) << "exposure " << *finish.exposure << ", white " << *finish.white;
+    largest = std::max(largest, error);
+  }
+  EXPECT_GT(largest, 0.5);
+}
+
 // A picture that leaves its exposure open, and how bright the backgrounds were that it was drawn
 // on.
 std::vector<double> backgrounds_drawn(bool keeps_promise) {

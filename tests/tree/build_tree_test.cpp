@@ -99,6 +99,130 @@ TEST(BuildTree, SamplesMembersWithoutBias) {
   EXPECT_LE(std::abs(difference), 4 * std::sqrt(squares));
 }
 
+std::vector<double> values_of(const Matter& matter, const std::vector<std::uint32_t>& places) {
+  std::vector<double> values;
+  for (const std::uint32_t place : places)
+    values.push_back(std::log(static_cast<double>(matter.color[place])));
+  std::sort(values.begin(), values.end());
+  return values;
+}
+std::vector<double> sampled_values(const TreeOfType& tree, std::size_t level, std::uint64_t node) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < sampled_members; ++k) {
+    const float value = value_of_ordered(tree.levels[level].fields[node].ordered(k));
+    values.push_back(std::log(static_cast<double>(value)));
+  }
+  return values;
+}
+
+TEST(BuildTree, KeepsTheValuesOfUpToEightMembersOfEqualFlux) {
+  const Matter matter = clumps(5000, 9, 1);
+  const auto tree = tree_of(matter);
+  int few = 0;
+  for (std::size_t level = 0; level < tree->levels.size(); ++level) {
+    for (std::uint64_t node = 0; node < tree->levels[level].count; ++node) {
+      std::vector<std::uint32_t> places;
+      collect(*tree, level, node, places);
+      const std::size_t members = places.size() <= sampled_members ? places.size() : 0;
+      ASSERT_EQ(tree->levels[level].nodes[node].all_sampled(), members);
+      if (members == 0) continue;
+      ++few;
+      const std::vector<double> exact = values_of(matter, places);
+      const std::vector<double> sampled = sampled_values(*tree, level, node);
+      for (std::size_t k = 0; k < members; ++k)
+        ASSERT_NEAR(sampled[k], exact[k], (exact.back() - exact.front() + 1e-5) / 100);
+    }
+  }
+  EXPECT_GT(few, 100);
+}
+
+TEST(BuildTree, SamplesMembersOfUnlikeFluxByTheirShares) {
+  Matter matter;
+  for (int i = 0; i < 4; ++i)
+    matter.add(0.1 * i, 0.2, 0.3, 0.1, i == 0 ? 5 : 1, i == 0 ? 2 : 1);
+  const auto tree = tree_of(matter);
+  EXPECT_EQ(tree->levels.front().nodes->members, 0);
+  double sum = 0;
+  for (std::size_t k = 0; k < sampled_members; ++k)
+    sum += static_cast<double>(value_of_ordered(tree->levels.front().fields->ordered(k)));
+  EXPECT_NEAR(sum, 5 * 2 + 3 * 1, 1e-4);
+}
+
+// Of places in each eighth that know nothing of each other the mean errs by the eighths' own
+// variances.
+TEST(BuildTree, SamplesMembersNearerToTheirMeanThanAtRandom) {
+  const Matter matter = clumps(100000, 10, 1);
+  const auto tree = tree_of(matter);
+  const std::size_t level = 4;
+  double squares = 0, at_random = 0;
+  for (std::uint64_t node = 0; node < tree->levels[level].count; ++node) {
+    std::vector<std::uint32_t> places;
+    collect(*tree, level, node, places);
+    if (places.size() < 8 * sampled_members) continue;
+    const std::vector<double> exact = values_of(matter, places);
+    const std::vector<double> sampled = sampled_values(*tree, level, node);
+    const double mean =
+        std::accumulate(exact.begin(), exact.end(), 0.0) / static_cast<double>(exact.size());
+    const double of_sampled = std::accumulate(sampled.begin(), sampled.end(), 0.0) / 8;
+    squares += (of_sampled - mean) * (of_sampled - mean);
+    for (std::size_t k = 0; k < sampled_members; ++k) {
+      const std::size_t first = k * exact.size() / 8, last = (k + 1) * exact.size() / 8;
+      const double count = static_cast<double>(last - first);
+      double sum = 0, sum_of_squares = 0;
+      for (std::size_t i = first; i < last; ++i) {
+        sum += exact[i];
+        sum_of_squares += exact[i] * exact[i];
+      }
+      at_random += (sum_of_squares / count - sum * sum / count / count) / 64;
+    }
+  }
+  EXPECT_GT(at_random, 0);
+  EXPECT_LT(squares, at_random);
+}
+
+// Calls look(level, node, its cell along each axis) for a node and all below it.
+template <class Look>
+void walk(const TreeOfType& tree, std::size_t level, std::uint64_t node,
+          const std::array<std::uint32_t, 3>& cell, const Look& look) {
+  look(level, node, cell);
+  std::uint64_t child = tree.levels[level].first_child(node);
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    if ((tree.levels[level].children[node] >> octant & 1U) == 0) continue;
+    std::array<std::uint32_t, 3> below{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      below[axis] = 2 * cell[axis] + (octant >> axis & 1U);
+    walk(tree, level + 1, child++, below, look);
+  }
+}
+
+TEST(BuildTree, HasNodesAtTheCentersOfTheirParticlesAndMergesTheRestOfEachNode) {
+  const Matter matter = clumps(100000, 12);
+  const auto tree = tree_of(matter);
+  int rests = 0;
+  walk(*tree, 0, 0, {}, [&](std::size_t level, std::uint64_t node, const auto& cell) {
+    const TreeLevel& of_level = tree->levels[level];
+    const TreeNode& stored = of_level.nodes[node];
+    std::vector<std::uint32_t> places;
+    collect(*tree, level, node, places);
+    const int cell_level = stored.cell_level(level);
+    const double side = std::ldexp(tree->side, -cell_level);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double center = 0;
+      for (const std::uint32_t place : places)
+        center += static_cast<double>(matter.position[3 * place + axis]);
+      center /= static_cast<double>(places.size());
+      const double at = (cell[axis] >> (stored.is_rest() ? 1 : 0)) +
+                        (static_cast<double>(stored.place[axis]) + 0.5) * 0x1p-16;
+      ASSERT_NEAR(tree->origin.a[axis] + side * at, center, 1e-4 * side + 1e-6);
+    }
+    rests += stored.is_rest() ? 1 : 0;
+    if (level > 5 && of_level.children[node] != 0) {
+      ASSERT_LT(of_level.loose[node], 4);
+    }
+  });
+  EXPECT_GT(rests, 100);
+}
+
 TEST(BuildTree, LeavesBadParticlesOutAndCountsThem) {
   Matter matter = clumps(1000, 7);
   matter.position[3] = std::numeric_limits<float>::quiet_NaN();

@@ -22,6 +22,7 @@
 #include "splotchcl/reference.h"
 #include "tree/merged_drawing.h"
 #include "tree/tree_cut.h"
+#include "tree/tree_preview.h"
 
 namespace splotchcl {
 namespace {
@@ -198,6 +199,22 @@ struct FrameDrawer::State {
     return uses_tree(view, tree);
   }
 
+  // For frames with a tree of merged particles.
+  LooseDrawing loose_drawing() {
+    constexpr std::uint64_t rough_splats = 200000;
+    LooseDrawing loose;
+    loose.serves = [this](const Frame& frame) {
+      return renderer.valid() && !plan_options.certify && may_use_tree(frame, tree);
+    };
+    loose.draw_roughly = [this](const Frame& frame) {
+      RenderStats ignored;
+      TreePreview preview;
+      const std::optional<Frame> nodes = preview.of(frame, rough_splats);
+      return draw_alone(nodes ? *nodes : frame, ignored);
+    };
+    return loose;
+  }
+
   Image draw_alone(const Frame& view, RenderStats& total) {
     const QuietErrors quiet;
     Image image = draw_with_device(view);
@@ -264,7 +281,7 @@ struct FrameDrawer::State {
     DrawnPictures pictures = draw_pictures(
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn); },
         drawn.notes, other_scenes, light, [&](double gain) { return keeps_promise(gain, drawn); },
-        moments);
+        moments, loose_drawing());
     drawn.pictures = std::move(pictures.pictures);
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
