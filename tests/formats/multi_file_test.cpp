@@ -77,6 +77,22 @@ TEST_P(MultiFile, MembersWithoutSomeTypesAreJoined) {
   expect_same_columns(*open_snapshot(member(0)), *open_whole());
 }
 
+TEST_P(MultiFile, MembersOfWhichOneHasAllOfATypeAreReadByAnyNameOfTheSet) {
+  TestSnapshot whole = snapshot();
+  std::vector<TestSnapshot> members = split(whole, 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    members[i].counts[4] = i == 2 ? whole.counts[4] : 0;
+    for (TestBlock& block : members[i].blocks)
+      block.values[4] = i == 2 ? whole.block(block.label).values[4] : std::vector<double>();
+  }
+  write_set(members);
+  for (const auto& path : {member(0), member(1), member(2), base(), set_folder()}) {
+    const auto joined = open_snapshot(path);
+    EXPECT_EQ(joined->info().files.size(), 3U) << path;
+    expect_columns_of(*joined, whole);
+  }
+}
+
 TEST_P(MultiFile, AMissingMemberIsNamed) {
   write_set(split(snapshot(), 3));
   std::filesystem::remove(member(1));

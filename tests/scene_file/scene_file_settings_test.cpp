@@ -2,6 +2,7 @@
 #include "scene_file/suggested.h"
 #include "splotchcl/scene_file.h"
 #include "testing.h"
+#include "text_rows.h"
 
 namespace splotchcl::test {
 namespace {
@@ -179,12 +180,6 @@ TEST(SettingsOfARange, OfAMapAndItsPercentilesReplaceEachOther) {
   EXPECT_EQ(by_limits.maximum, 2);
 }
 
-TEST(SettingsOfARange, AreRefusedBesidePercentilesThatAreSetAsWell) {
-  const std::string message =
-      message_for(text, {"component.gas.color={field='U', min=1, max=2, percentiles=[20,80]}"});
-  EXPECT_THAT(message, HasSubstr("key component.0.color.percentiles: found it beside min and max"));
-}
-
 TEST(SettingsOfColors, OfTheParticlesReplaceAField) {
   const Component component =
       parse_scene("[[component]]\ncolor = { field = 'U', scaling = 'log', min = 1, max = 2 }\n",
@@ -209,13 +204,6 @@ TEST(SettingsOfColors, KeepAFieldThatIsLookedUpInAnAbsorptionPalette) {
           .components[0];
   EXPECT_EQ(component.color_vector, "Color");
   EXPECT_EQ(component.color.field, "U");
-}
-
-TEST(SettingsOfColors, AreRefusedWhereTheyExcludeEachOther) {
-  EXPECT_THAT(message_for(text, {"component.gas.color={vector='Color', field='U'}"}),
-              HasSubstr("only one of the two"));
-  EXPECT_THAT(message_for(text, {"component.gas.color.vector=C", "component.gas.color.min=1"}),
-              HasSubstr("found a value without a field"));
 }
 
 // As it is chosen for a snapshot: the range was found in the data of the field.
@@ -343,63 +331,37 @@ TEST(SettingsOfASceneFile, KeepTheLimitsOfTheFile) {
   EXPECT_EQ(scene.components[0].color.maximum, 2);
 }
 
-struct RefusedSetting {
-  std::string setting, message;
-};
-void PrintTo(const RefusedSetting& refused, std::ostream* out) {
-  *out << refused.setting;
-}
-class SettingsRefuse : public ::testing::TestWithParam<RefusedSetting> {};
+class RefusedSettings : public ::testing::TestWithParam<TextRow> {};
 
-TEST_P(SettingsRefuse, InOneLineThatNamesTheSetting) {
-  const std::string message = message_for(text, {GetParam().setting});
+// A setting in each line.
+TEST_P(RefusedSettings, AreNamedInOneLine) {
+  std::vector<std::string> settings;
+  std::istringstream lines(GetParam().texts.front());
+  for (std::string line; std::getline(lines, line);)
+    settings.push_back(line);
+  const std::string message = message_for(text, settings);
   EXPECT_THAT(message, StartsWith("setting \""));
-  EXPECT_THAT(message, HasSubstr(GetParam().message));
   EXPECT_THAT(message, HasSubstr("expected"));
   EXPECT_THAT(message, Not(HasSubstr("\n")));
+  for (const std::string& part : GetParam().expected)
+    EXPECT_THAT(message, HasSubstr(part));
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    WhatIsWrong, SettingsRefuse,
-    ::testing::Values(
-        RefusedSetting{"", "found no key with a value"},
-        RefusedSetting{"tolerance", "setting \"tolerance\": found no key with a value"},
-        RefusedSetting{"=3", "found no key with a value"},
-        RefusedSetting{"tolerance=", "key tolerance: found string \"\""},
-        RefusedSetting{"tolerance=-1", "setting \"tolerance=-1\": key tolerance: found integer -1"},
-        RefusedSetting{"tolerance=low", "key tolerance: found string \"low\""},
-        RefusedSetting{"tolerance=1e999", "key tolerance: found"},
-        RefusedSetting{"tolerence=1", "did you mean tolerance?"},
-        RefusedSetting{"camera.fov=30",
-                       "key camera.fov: found an unknown key, expected one of position"},
-        RefusedSetting{"camera.feild_of_view=30", "did you mean camera.field_of_view?"},
-        RefusedSetting{"camera.feild=3", "did you mean camera.field_of_view?"},
-        RefusedSetting{"component.gas.colour.field=density",
-                       "did you mean component.0.color.field?"},
-        RefusedSetting{"component.gas.colour.feild=density",
-                       "did you mean component.0.color.field?"},
-        RefusedSetting{"component.gas.field=density", "did you mean component.0.size.field?"},
-        RefusedSetting{"imgae.sise=[1,1]", "did you mean image.size?"},
-        RefusedSetting{"brightnes=2", "did you mean component.0.brightness?"},
-        RefusedSetting{"camera.near.x=30", "key camera.near.x: found an unknown key"},
-        RefusedSetting{"camera.=30", "key camera.: found an unknown key"},
-        RefusedSetting{"camera=30", "key camera: found integer 30, expected a table"},
-        RefusedSetting{"camera.sky=[0,0,1]", "key camera.sky: found (0, 0, 1), parallel"},
-        RefusedSetting{"image.size=[640,480", "key image.size: found string \"[640,480\""},
-        RefusedSetting{"image.size=640x480x3", "key image.size: found string \"640x480x3\""},
-        RefusedSetting{"component=1", "key component: found integer 1"},
-        RefusedSetting{"component.palette=magma", "key component.palette: found no such component"},
-        RefusedSetting{"component.3.palette=magma",
-                       "expected a number from 0 to 2 or a name (gas, dark"},
-        RefusedSetting{"component.00.palette=magma", "key component.00: found no such component"},
-        RefusedSetting{"component.-1.palette=magma", "key component.-1: found no such component"},
-        RefusedSetting{"component.gass.palette=magma", "did you mean gas?"},
-        RefusedSetting{"component.gas.pallette=magma", "did you mean component.0.palette?"},
-        RefusedSetting{"component.gas=3", "key component.0: found integer 3, expected a table"},
-        RefusedSetting{"component.gas.color.min=1", "found a value without a field"},
-        RefusedSetting{"component.1.name=gas", "which another component has"},
-        RefusedSetting{"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
-        RefusedSetting{"to\nler=1", "key to ler: found an unknown key"}));
+    Rows, RefusedSettings,
+    ::testing::ValuesIn(read_text_rows(source_folder() / "tests/scene_file/refused_settings.rows")),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Settings, OfNothingOrOfSeveralLinesAreRefusedInOne) {
+  const std::map<std::string, std::string> refused = {
+      {"", "found no key with a value"},
+      {"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
+      {"to\nler=1", "key to ler: found an unknown key"}};
+  for (const auto& [setting, message] : refused) {
+    EXPECT_THAT(message_for(text, {setting}), AllOf(StartsWith("setting \""), HasSubstr(message),
+                                                    HasSubstr("expected"), Not(HasSubstr("\n"))));
+  }
+}
 
 TEST(Settings, AreNamedWhereOneSideOfThePictureDoesNotFit) {
   const std::string panorama =
@@ -407,18 +369,6 @@ TEST(Settings, AreNamedWhereOneSideOfThePictureDoesNotFit) {
       "projection = \"equirectangular\"\n[[component]]\n";
   EXPECT_THAT(message_for(panorama, {"image.width=256"}),
               HasSubstr("setting \"image.width=256\": key image.width: found 256 x 1024"));
-}
-
-TEST(Settings, AreRefusedWhenGivenTwice) {
-  EXPECT_THAT(message_for(text, {"image.width=1", "image.width=2"}),
-              HasSubstr("key image.width: found it for the second time"));
-  EXPECT_THAT(message_for(text, {"component.0.palette=a", "component.gas.palette=b"}),
-              HasSubstr("for the second time"));
-}
-
-TEST(Settings, AreRefusedWhenTheyExcludeEachOther) {
-  EXPECT_THAT(message_for(text, {"component.0.absorption=1", "component.0.gray_absorption=1"}),
-              HasSubstr("found it beside component.0.absorption"));
 }
 
 TEST(Settings, FindNoComponentInASceneWithoutAny) {
