@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,10 @@ struct TextRow {
   std::vector<std::string> texts;
   std::vector<std::string> expected;
 };
+
+inline void PrintTo(const TextRow& row, std::ostream* out) {
+  *out << row.name;
+}
 
 std::vector<TextRow> read_text_rows(const std::filesystem::path& file);
 
