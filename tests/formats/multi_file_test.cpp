@@ -290,13 +290,5 @@ TEST(SnapshotName, TheNameDoesNotDecideTheFormat) {
   EXPECT_THAT(open_snapshot(folder / "snap.hdf5")->info().format, HasSubstr("Gadget format 2"));
 }
 
-TEST(SnapshotName, AFileOfAnotherKindIsRefusedWithItsFirstBytes) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "snap", "\x89PNG\r\n");
-  EXPECT_THAT(refusal(folder / "snap"), HasSubstr("it is a PNG image"));
-  write_bytes(folder / "empty", "");
-  EXPECT_THAT(refusal(folder / "empty"), HasSubstr("the file is empty"));
-}
-
 }  // namespace
 }  // namespace splotchcl::test

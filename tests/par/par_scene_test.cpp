@@ -51,6 +51,7 @@ TEST_P(ParKeys, BecomeThoseOfScenes) {
       EXPECT_THAT(notes_, IsEmpty());
     } else {
       ASSERT_NE(is, std::string::npos);
+      ASSERT_EQ(refused, "");
       EXPECT_EQ(test::value_of(scene, part.substr(0, is)), part.substr(is + 4));
     }
   }
