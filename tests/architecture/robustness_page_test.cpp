@@ -21,9 +21,11 @@ std::set<TestName> tests_of_the_project() {
     for (const Match& found : matches_of(content_of(test::source_folder() / path), definition))
       tests.insert({found[1], found[2]});
   }
+  // Sessions, and rows of texts: each of them by the name of its file.
   for (const auto& entry :
-       std::filesystem::directory_iterator(test::source_folder() / "tests/sessions")) {
-    if (entry.path().extension() != ".session") continue;
+       std::filesystem::recursive_directory_iterator(test::source_folder() / "tests")) {
+    const auto ending = entry.path().extension();
+    if (ending != ".session" && ending != ".rows") continue;
     for (const Match& found : matches_of(content_of(entry.path()), R"(\n== (\w+))"))
       tests.insert({entry.path().stem().string(), found[1]});
   }

@@ -172,7 +172,11 @@ TEST(Project, EachPublicHeaderBelongsToOneTarget) {
 }
 
 TEST(Project, EachFileBelongsToATarget) {
-  EXPECT_THAT(find_stray_files(table(), test::source_folder()), IsEmpty());
+  std::vector<std::string> stray = find_stray_files(table(), test::source_folder());
+  // Where OpenVDB is not installed, its module is no target.
+  const auto module = std::find(stray.begin(), stray.end(), "src/openvdb/module.cpp");
+  if (table().find("splotchcl_openvdb") == nullptr && module != stray.end()) stray.erase(module);
+  EXPECT_THAT(stray, IsEmpty());
 }
 
 TEST(Project, HasNoCycles) {

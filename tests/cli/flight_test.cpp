@@ -26,7 +26,7 @@ ProgramResult prepare_flight(const TemporaryFolder& folder) {
       folder, "mkdir examples demo && cp '" + source + "/examples/fly_in.toml' examples && '" +
                   source +
                   "/scripts/fly_in' --path > demo/fly_in.path && "
-                  "\"$splotchcl\" generate universe --particles 300000 -o demo/universe.gadget && "
+                  "\"$splotchcl\" generate universe --particles 100000 -o demo/universe.gadget && "
                   "\"$splotchcl\" galaxy spiral.exr -o demo/galaxy.hdf5 --disk-stars 100 "
                   "--bulge-stars 100 --clusters 1 --cloud-points 1 && "
                   "sed -i 's/ component.galaxy.brightness//; s/ [0-9.]*$//' demo/fly_in.path");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,34 @@ inline void give_few_fields(Frame& frame, std::size_t period) {
       fields[i] = static_cast<float>(i % 3);
     component.particles.sort_field = Column::owning(fields);
   }
+}
+
+// Frames that have the bits of one piece however they are divided.
+struct DividedFrame {
+  const char* name;
+  Frame frame;
+  int slabs = -1;                // below 0: as many as seem to pay
+  std::uint64_t windows = 6;     // to be drawn in
+  std::uint64_t least = 6;       // of these, that there are
+  std::vector<int> ranks = {2};  // to be drawn by
+};
+
+inline std::vector<DividedFrame> divided_frames() {
+  Frame coarse = many_clouds(1000), by_field = coarse, exact = many_clouds(300);
+  coarse.tolerance = 1e-2;
+  exact.tolerance = 0;
+  by_field.sort.by = SortOrder::By::field;
+  give_few_fields(by_field, 10);
+  Frame descending = by_field, empty = many_clouds(100);
+  descending.sort.descending = true;
+  empty.camera.position = {{0, 0, 1e6}};
+  return {{"a slab", coarse, 1, 5, 5, {2, 4}},
+          {"three slabs", coarse, 3, 5, 5, {2, 4}},
+          {"splats of one key", by_field, -1, 12, 6, {2, 3}},
+          {"splats of one key, descending", descending, -1, 12, 6, {2, 3}},
+          {"extended precision", exact},
+          {"copies of a panorama", panorama_of_clouds(500)},
+          {"nothing", empty, -1, 1, 0, {3}}};
 }
 
 }  // namespace splotchcl::test

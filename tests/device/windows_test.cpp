@@ -115,42 +115,14 @@ TEST_P(Windows, AreAsManyAsMemoryAsksFor) {
   }
 }
 
-TEST_P(Windows, HoldSlabs) {
-  Frame frame = many_clouds(1000);
-  frame.tolerance = 1e-2;
-  for (const int slabs : {1, 3}) {
-    const Image whole = draw(frame, slabs);
-    EXPECT_EQ(draw_in_windows(frame, 5, slabs).pixels, whole.pixels) << slabs;
-    EXPECT_GE(counts().windows, 5u);
+TEST_P(Windows, DrawTheBitsOfOnePieceWhateverIsDivided) {
+  for (const DividedFrame& divided : divided_frames()) {
+    SCOPED_TRACE(divided.name);
+    const Image whole = draw(divided.frame, divided.slabs);
+    EXPECT_EQ(counts().visible > 100, divided.least > 0);
+    EXPECT_EQ(draw_in_windows(divided.frame, divided.windows, divided.slabs).pixels, whole.pixels);
+    EXPECT_GE(counts().windows, divided.least);
   }
-}
-
-TEST_P(Windows, KeepTheOrderOfSplatsOfOneKey) {
-  Frame frame = many_clouds(1000);
-  frame.sort.by = SortOrder::By::field;
-  for (const bool descending : {false, true}) {
-    frame.sort.descending = descending;
-    give_few_fields(frame, 10);
-    const Image whole = draw(frame);
-    EXPECT_EQ(draw_in_windows(frame, 12).pixels, whole.pixels);
-    EXPECT_GE(counts().windows, 6u);
-  }
-}
-
-TEST_P(Windows, HoldExtendedPrecision) {
-  Frame frame = many_clouds(300);
-  frame.tolerance = 0;
-  const Image whole = draw(frame);
-  EXPECT_EQ(draw_in_windows(frame, 6).pixels, whole.pixels);
-  EXPECT_GE(counts().windows, 6u);
-}
-
-TEST_P(Windows, HoldTheCopiesOfPanoramas) {
-  const Frame frame = panorama_of_clouds(500);
-  const Image whole = draw(frame);
-  EXPECT_GT(counts().visible, 100u);
-  EXPECT_EQ(draw_in_windows(frame, 6).pixels, whole.pixels);
-  EXPECT_GE(counts().windows, 6u);
 }
 
 // Those lie between splats, wherever windows end.
@@ -182,13 +154,6 @@ TEST_P(Windows, HoldCloudsAroundTheCameraInLists) {
     EXPECT_GE(counts().windows, 3u);
     EXPECT_EQ(draw(streamed(frame), 0).pixels, whole.pixels);
   }
-}
-
-TEST_P(Windows, HoldAnEmptyFrame) {
-  Frame frame = many_clouds(100);
-  frame.camera.position = {{0, 0, 1e6}};
-  const Image whole = draw(frame);
-  EXPECT_EQ(draw_in_windows(frame, 1).pixels, whole.pixels);
 }
 
 // Of 1000 clouds, and of five blocks' in chunks of three, which are shorter than chunks may be.

@@ -147,6 +147,14 @@ extern "C" int sigaction(int signal, const struct sigaction* action,
   return result;
 }
 
+// A call that fails as a whole: what it counts as, its error, and what it returns then.
+#define FAILING(counted, error, result, type, name, parameters, arguments, specifier) \
+  extern "C" type name parameters specifier {                                         \
+    static auto* const original = next(&name, #name);                                 \
+    return fails(counted) ? failure<type>(error, result) : original arguments;        \
+  }                                                                                   \
+  static_assert(true)
+
 // All that takes a descriptor counts as "open".
 
 extern "C" int open(const char* path, int flags, ...) {
@@ -167,65 +175,29 @@ extern "C" int open64(const char* path, int flags, ...) {
   return fails("open") ? failure(EMFILE, -1) : original(path, flags, mode);
 }
 
-extern "C" std::FILE* fopen(const char* path, const char* mode) {
-  static auto* const original = next(&fopen, "fopen");
-  return fails("open") ? failure<std::FILE*>(EMFILE, nullptr) : original(path, mode);
-}
-
-extern "C" std::FILE* fopen64(const char* path, const char* mode) {
-  static auto* const original = next(&fopen64, "fopen64");
-  return fails("open") ? failure<std::FILE*>(EMFILE, nullptr) : original(path, mode);
-}
-
-extern "C" DIR* opendir(const char* path) {
-  static auto* const original = next(&opendir, "opendir");
-  return fails("open") ? failure<DIR*>(EMFILE, nullptr) : original(path);
-}
-
-extern "C" int mkostemp(char* name, int flags) {
-  static auto* const original = next(&mkostemp, "mkostemp");
-  return fails("open") ? failure(EMFILE, -1) : original(name, flags);
-}
-
-extern "C" int pipe2(int* ends, int flags) noexcept {
-  static auto* const original = next(&pipe2, "pipe2");
-  return fails("open") ? failure(EMFILE, -1) : original(ends, flags);
-}
-
-extern "C" int dup(int descriptor) noexcept {
-  static auto* const original = next(&dup, "dup");
-  return fails("open") ? failure(EMFILE, -1) : original(descriptor);
-}
-
-extern "C" int socket(int domain, int type, int protocol) noexcept {
-  static auto* const original = next(&socket, "socket");
-  return fails("open") ? failure(EMFILE, -1) : original(domain, type, protocol);
-}
-
-extern "C" int accept(int descriptor, struct sockaddr* address, socklen_t* length) {
-  static auto* const original = next(&accept, "accept");
-  return fails("open") ? failure(EMFILE, -1) : original(descriptor, address, length);
-}
-
-extern "C" ssize_t read(int descriptor, void* data, std::size_t bytes) {
-  static auto* const original = next(&read, "read");
-  return fails("read") ? failure<ssize_t>(EIO, -1) : original(descriptor, data, bytes);
-}
-
-extern "C" ssize_t pread(int descriptor, void* data, std::size_t bytes, off_t where) {
-  static auto* const original = next(&pread, "pread");
-  return fails("read") ? failure<ssize_t>(EIO, -1) : original(descriptor, data, bytes, where);
-}
-
-extern "C" ssize_t pread64(int descriptor, void* data, std::size_t bytes, off64_t where) {
-  static auto* const original = next(&pread64, "pread64");
-  return fails("read") ? failure<ssize_t>(EIO, -1) : original(descriptor, data, bytes, where);
-}
-
-extern "C" ssize_t recvmsg(int descriptor, struct msghdr* message, int flags) {
-  static auto* const original = next(&recvmsg, "recvmsg");
-  return fails("read") ? failure<ssize_t>(ECONNRESET, -1) : original(descriptor, message, flags);
-}
+FAILING("open", EMFILE, nullptr, std::FILE*, fopen, (const char* path, const char* mode),
+        (path, mode), );
+FAILING("open", EMFILE, nullptr, std::FILE*, fopen64, (const char* path, const char* mode),
+        (path, mode), );
+FAILING("open", EMFILE, nullptr, DIR*, opendir, (const char* path), (path), );
+FAILING("open", EMFILE, -1, int, mkostemp, (char* name, int flags), (name, flags), );
+FAILING("open", EMFILE, -1, int, pipe2, (int* ends, int flags), (ends, flags), noexcept);
+FAILING("open", EMFILE, -1, int, dup, (int descriptor), (descriptor), noexcept);
+FAILING("open", EMFILE, -1, int, socket, (int domain, int type, int protocol),
+        (domain, type, protocol), noexcept);
+FAILING("open", EMFILE, -1, int, accept,
+        (int descriptor, struct sockaddr* address, socklen_t* length),
+        (descriptor, address, length), );
+FAILING("read", EIO, -1, ssize_t, read, (int descriptor, void* data, std::size_t bytes),
+        (descriptor, data, bytes), );
+FAILING("read", EIO, -1, ssize_t, pread,
+        (int descriptor, void* data, std::size_t bytes, off_t where),
+        (descriptor, data, bytes, where), );
+FAILING("read", EIO, -1, ssize_t, pread64,
+        (int descriptor, void* data, std::size_t bytes, off64_t where),
+        (descriptor, data, bytes, where), );
+FAILING("read", ECONNRESET, -1, ssize_t, recvmsg,
+        (int descriptor, struct msghdr* message, int flags), (descriptor, message, flags), );
 
 extern "C" ssize_t write(int descriptor, const void* data, std::size_t bytes) {
   static auto* const original = next(&write, "write");
@@ -259,15 +231,9 @@ extern "C" ssize_t writev(int descriptor, const struct iovec* parts, int count) 
   return original(descriptor, parts, count);
 }
 
-extern "C" ssize_t sendmsg(int descriptor, const struct msghdr* message, int flags) {
-  static auto* const original = next(&sendmsg, "sendmsg");
-  return fails("write") ? failure<ssize_t>(ECONNRESET, -1) : original(descriptor, message, flags);
-}
-
-extern "C" int fsync(int descriptor) {
-  static auto* const original = next(&fsync, "fsync");
-  return fails("fsync") ? failure(EIO, -1) : original(descriptor);
-}
+FAILING("write", ECONNRESET, -1, ssize_t, sendmsg,
+        (int descriptor, const struct msghdr* message, int flags), (descriptor, message, flags), );
+FAILING("fsync", EIO, -1, int, fsync, (int descriptor), (descriptor), );
 
 // The descriptor is closed in any case, as Linux does it.
 extern "C" int close(int descriptor) {
@@ -284,52 +250,20 @@ extern "C" int fclose(std::FILE* file) {
   return is_failure ? failure(EIO, EOF) : result;
 }
 
-extern "C" int rename(const char* from, const char* to) noexcept {
-  static auto* const original = next(&rename, "rename");
-  return fails("rename") ? failure(EACCES, -1) : original(from, to);
-}
-
-extern "C" int link(const char* from, const char* to) noexcept {
-  static auto* const original = next(&link, "link");
-  return fails("link") ? failure(EPERM, -1) : original(from, to);
-}
-
-extern "C" int unlink(const char* path) noexcept {
-  static auto* const original = next(&unlink, "unlink");
-  return fails("unlink") ? failure(EACCES, -1) : original(path);
-}
-
-extern "C" int remove(const char* path) noexcept {
-  static auto* const original = next(&remove, "remove");
-  return fails("unlink") ? failure(EACCES, -1) : original(path);
-}
-
-extern "C" int ftruncate(int descriptor, off_t bytes) noexcept {
-  static auto* const original = next(&ftruncate, "ftruncate");
-  return fails("truncate") ? failure(EIO, -1) : original(descriptor, bytes);
-}
-
-extern "C" int ftruncate64(int descriptor, off64_t bytes) noexcept {
-  static auto* const original = next(&ftruncate64, "ftruncate64");
-  return fails("truncate") ? failure(EIO, -1) : original(descriptor, bytes);
-}
-
-extern "C" int mkdir(const char* path, mode_t mode) noexcept {
-  static auto* const original = next(&mkdir, "mkdir");
-  return fails("mkdir") ? failure(ENOSPC, -1) : original(path, mode);
-}
-
-extern "C" void* mmap(void* place, std::size_t bytes, int protection, int flags, int descriptor,
-                      off_t where) noexcept {
-  static auto* const original = next(&mmap, "mmap");
-  return fails("mmap") ? failure(ENOMEM, MAP_FAILED)
-                       : original(place, bytes, protection, flags, descriptor, where);
-}
-
-extern "C" pid_t fork() noexcept {
-  static auto* const original = next(&fork, "fork");
-  return fails("fork") ? failure<pid_t>(EAGAIN, -1) : original();
-}
+FAILING("rename", EACCES, -1, int, rename, (const char* from, const char* to), (from, to),
+        noexcept);
+FAILING("link", EPERM, -1, int, link, (const char* from, const char* to), (from, to), noexcept);
+FAILING("unlink", EACCES, -1, int, unlink, (const char* path), (path), noexcept);
+FAILING("unlink", EACCES, -1, int, remove, (const char* path), (path), noexcept);
+FAILING("truncate", EIO, -1, int, ftruncate, (int descriptor, off_t bytes), (descriptor, bytes),
+        noexcept);
+FAILING("truncate", EIO, -1, int, ftruncate64, (int descriptor, off64_t bytes), (descriptor, bytes),
+        noexcept);
+FAILING("mkdir", ENOSPC, -1, int, mkdir, (const char* path, mode_t mode), (path, mode), noexcept);
+FAILING("mmap", ENOMEM, MAP_FAILED, void*, mmap,
+        (void* place, std::size_t bytes, int protection, int flags, int descriptor, off_t where),
+        (place, bytes, protection, flags, descriptor, where), noexcept);
+FAILING("fork", EAGAIN, -1, pid_t, fork, (), (), noexcept);
 
 extern "C" int posix_spawn(pid_t* child, const char* path,
                            const posix_spawn_file_actions_t* actions,

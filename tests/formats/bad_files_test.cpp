@@ -2,8 +2,6 @@
 #include <unistd.h>
 
 #include "common/guards.h"
-#include "formats/hdf5/hdf5_values.h"
-#include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_checks.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene_file.h"
@@ -72,36 +70,6 @@ TEST_F(BadFiles, AFileThatMayNotBeReadIsRefused) {
   write_bytes(path_, "anything");
   std::filesystem::permissions(path_, std::filesystem::perms::none);
   EXPECT_THAT(refusal(path_), HasSubstr("Permission denied; check the path and its permissions"));
-}
-
-TEST_F(BadFiles, AMissingMemberOfASetIsNamed) {
-  const std::vector<TestSnapshot> members = split(small_snapshot(), 3);
-  for (const int member : {0, 2}) {
-    write_gadget(folder_ / ("set." + std::to_string(member)),
-                 members[static_cast<std::size_t>(member)], 2);
-    write_hdf5(folder_ / ("set." + std::to_string(member) + ".hdf5"),
-               members[static_cast<std::size_t>(member)]);
-  }
-  EXPECT_THAT(refusal(folder_ / "set.2"), HasSubstr("set.1: missing"));
-  EXPECT_THAT(refusal(folder_ / "set.0.hdf5"), HasSubstr("set.1.hdf5: missing"));
-}
-
-TEST_F(BadFiles, Hdf5TruncatedAnywhereIsRefusedOrReadsWhatWasWritten) {
-  write_hdf5(path_, small_snapshot());
-  const std::string whole = read_text(path_);
-  for (std::size_t size = 0; size < whole.size(); size += 61) {
-    write_bytes(path_, whole.substr(0, size));
-    EXPECT_THROW(
-        {
-          const auto snapshot = open_snapshot(path_);
-          for (const ParticleTypeInfo& type : snapshot->info().types) {
-            for (const FieldInfo& field : type.fields)
-              snapshot->read(type.type, field.name);
-          }
-        },
-        DataError)
-        << size;
-  }
 }
 
 // What load_frame says of the particles that are left.

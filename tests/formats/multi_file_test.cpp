@@ -77,6 +77,22 @@ TEST_P(MultiFile, MembersWithoutSomeTypesAreJoined) {
   expect_same_columns(*open_snapshot(member(0)), *open_whole());
 }
 
+TEST_P(MultiFile, MembersOfWhichOneHasAllOfATypeAreReadByAnyNameOfTheSet) {
+  TestSnapshot whole = snapshot();
+  std::vector<TestSnapshot> members = split(whole, 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    members[i].counts[4] = i == 2 ? whole.counts[4] : 0;
+    for (TestBlock& block : members[i].blocks)
+      block.values[4] = i == 2 ? whole.block(block.label).values[4] : std::vector<double>();
+  }
+  write_set(members);
+  for (const auto& path : {member(0), member(1), member(2), base(), set_folder()}) {
+    const auto joined = open_snapshot(path);
+    EXPECT_EQ(joined->info().files.size(), 3U) << path;
+    expect_columns_of(*joined, whole);
+  }
+}
+
 TEST_P(MultiFile, AMissingMemberIsNamed) {
   write_set(split(snapshot(), 3));
   std::filesystem::remove(member(1));
@@ -272,14 +288,6 @@ TEST(SnapshotName, TheNameDoesNotDecideTheFormat) {
   const TemporaryFolder folder;
   write_gadget(folder / "snap.hdf5", small_snapshot(), 2);
   EXPECT_THAT(open_snapshot(folder / "snap.hdf5")->info().format, HasSubstr("Gadget format 2"));
-}
-
-TEST(SnapshotName, AFileOfAnotherKindIsRefusedWithItsFirstBytes) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "snap", "\x89PNG\r\n");
-  EXPECT_THAT(refusal(folder / "snap"), HasSubstr("it is a PNG image"));
-  write_bytes(folder / "empty", "");
-  EXPECT_THAT(refusal(folder / "empty"), HasSubstr("the file is empty"));
 }
 
 }  // namespace

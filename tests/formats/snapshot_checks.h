@@ -7,6 +7,9 @@
 
 namespace splotchcl::test {
 
+using ::testing::DoubleNear;
+using ::testing::Pointwise;
+
 // The values of a column as a vector, one value for a uniform one.
 inline std::vector<float> values_of(const Column& column) {
   if (column.is_uniform()) return {column.uniform_value()};
@@ -60,6 +63,24 @@ inline void expect_columns_of(const Snapshot& actual, const TestSnapshot& expect
           << "type " << type << " " << block.label;
     }
   }
+}
+
+// Its positions as doubles that single precision would round to 2^-5.
+inline TestSnapshot of_doubles_far_away(TestSnapshot snapshot) {
+  snapshot.set_kind("POS", ValueKind::float64);
+  for (auto& of_type : snapshot.block("POS").values) {
+    for (double& x : of_type)
+      x += 1e6 + 1e-7;
+  }
+  return snapshot;
+}
+
+// Of doubles, in the first block. Offsets from the median are below 64, where floats lie 2^-18
+// apart.
+inline void expect_positions_of(const Snapshot& actual, const TestSnapshot& expected) {
+  for (const std::size_t type : {0U, 1U, 4U})
+    EXPECT_THAT(absolute_positions(actual, static_cast<int>(type)),
+                Pointwise(DoubleNear(0x1p-18), expected.blocks.front().values[type]));
 }
 
 // What opening says about a file that must be refused; empty when it is not refused.

@@ -1,6 +1,7 @@
 #include "formats/snapshot_rows.h"
 
 #include "snapshot/field_names.h"
+#include "text_rows.h"
 
 namespace splotchcl::test {
 namespace {
@@ -81,6 +82,8 @@ bool expect_of_all(const Snapshot& snapshot, const std::string& what, const std:
     EXPECT_EQ(info.redshift, std::stod(value));
   } else if (what == "hubble") {
     EXPECT_EQ(info.hubble_parameter, std::stod(value));
+  } else if (what == "origin") {
+    EXPECT_EQ(snapshot.position_origin().a[0], std::stod(value));
   } else if (what == "types") {
     EXPECT_EQ(std::to_string(info.types.size()), value);
   } else {
@@ -90,6 +93,10 @@ bool expect_of_all(const Snapshot& snapshot, const std::string& what, const std:
 }
 
 void expect_of_type(const Snapshot& snapshot, std::string what, std::string value) {
+  if (what == "no" && value.rfind("unit ", 0) == 0) {
+    what = "unit";
+    value.erase(0, 5);
+  }
   std::string field = what == "unit" || what == "no" ? first_word(value) : what;
   const std::size_t slash = field.rfind('/');
   const bool names_type = slash != std::string::npos;
@@ -104,6 +111,8 @@ void expect_of_type(const Snapshot& snapshot, std::string what, std::string valu
     EXPECT_FALSE(has_field(snapshot, type, field));
   } else if (field == "count") {
     EXPECT_EQ(std::to_string(particles->count), value);
+  } else if (field == "table_mass") {
+    EXPECT_EQ(particles->table_mass, std::stod(value));
   } else if (field == "fields") {
     EXPECT_EQ(std::to_string(particles->fields.size()), value);
   } else if (field == "ids") {
@@ -116,6 +125,28 @@ void expect_of_type(const Snapshot& snapshot, std::string what, std::string valu
   }
 }
 
+std::vector<std::string> words_between_commas(std::string text) {
+  std::vector<std::string> words;
+  for (std::size_t comma = 0; comma != std::string::npos;) {
+    comma = text.find(", ");
+    words.push_back(text.substr(0, comma));
+    text.erase(0, comma == std::string::npos ? comma : comma + 2);
+  }
+  return words;
+}
+
+void add_option(SnapshotOptions& options, std::string value) {
+  const std::string what = first_word(value);
+  if (what == "columns") {
+    options.columns = words_between_commas(value);
+  } else if (what == "skip_lines") {
+    options.skip_lines = std::stoi(value);
+  } else {
+    ASSERT_EQ(what, "units");
+    options.units = words_between_commas(value);
+  }
+}
+
 // Of opening it and of reading all of it.
 template <class Refusal>
 std::string refusal_of_all(const std::filesystem::path& path, const SnapshotOptions& options) {
@@ -124,12 +155,27 @@ std::string refusal_of_all(const std::filesystem::path& path, const SnapshotOpti
     for (const ParticleTypeInfo& type : snapshot->info().types) {
       for (const FieldInfo& field : type.fields)
         snapshot->read(type.type, field.name);
-      snapshot->read_ids(type.type);
+      if (has_field(*snapshot, type.type, "id")) snapshot->read_ids(type.type);
     }
   });
 }
 
 }  // namespace
+
+std::vector<SnapshotRow> snapshot_rows(const std::string& file) {
+  std::vector<SnapshotRow> rows;
+  for (const TextRow& text : read_text_rows(source_folder() / "tests/formats" / file)) {
+    SnapshotRow& row = rows.emplace_back(SnapshotRow{text.name, text.texts, "", {}});
+    for (const std::string& part : text.expected) {
+      if (part.rfind("with ", 0) == 0) {
+        add_option(row.options, part.substr(5));
+      } else {
+        row.expected += (row.expected.empty() ? "" : " | ") + part;
+      }
+    }
+  }
+  return rows;
+}
 
 std::vector<std::string> parts_between_bars(const std::string& text) {
   const std::string bar = " | ";
@@ -148,6 +194,11 @@ void expect_snapshot(const std::filesystem::path& path, const SnapshotOptions& o
     SCOPED_TRACE(value);
     const std::string what = first_word(value);
     if (what == "refused") {
+      EXPECT_THAT(refusal_by<DataError>([&] { open_snapshot(path, options); }), HasSubstr(value));
+      continue;
+    }
+    if (what == "unreadable") {
+      EXPECT_EQ(refusal_by<DataError>([&] { open_snapshot(path, options); }), "");
       EXPECT_THAT(refusal_of_all<DataError>(path, options), HasSubstr(value));
       continue;
     }
@@ -157,6 +208,15 @@ void expect_snapshot(const std::filesystem::path& path, const SnapshotOptions& o
     }
     if (!snapshot) snapshot = open_snapshot(path, options);
     if (!expect_of_all(*snapshot, what, value)) expect_of_type(*snapshot, what, value);
+  }
+}
+
+TEST_P(SnapshotFile, IsReadOrRefused) {
+  const TemporaryFolder folder;
+  for (const std::string& content : GetParam().contents) {
+    SCOPED_TRACE(content);
+    write_bytes(folder / "snap", content);
+    expect_snapshot(folder / "snap", GetParam().options, GetParam().expected);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "formula/formula_values.h"
 #include "formula/formula_words.h"
 #include "testing.h"
+#include "text_rows.h"
 
 namespace splotchcl::test {
 namespace {
@@ -47,28 +48,6 @@ std::string refusal_of(const std::string& text) {
     return error.what();
   }
   return "no refusal of " + text;
-}
-
-TEST(Formula, HasTheOrderOfOperationsOfMathematics) {
-  EXPECT_EQ(value_of("1 + 2 * 3"), 7);
-  EXPECT_EQ(value_of("2 * 3 ^ 2"), 18);
-  EXPECT_EQ(value_of("2 ** 3"), 8);
-  EXPECT_EQ(value_of("-x^2"), -9);
-  EXPECT_EQ(value_of("2^-1"), 0.5);
-  EXPECT_EQ(value_of("2^3^2"), 512);
-  EXPECT_EQ(value_of("8 - 3 - 2"), 3);
-  EXPECT_EQ(value_of("8 / 4 / 2"), 1);
-  EXPECT_EQ(value_of("(1 + x) * -y"), -20);
-  EXPECT_EQ(value_of("1.5e1 + +x"), 18);
-}
-
-TEST(Formula, ComparesAndJoinsAsLanguagesDo) {
-  EXPECT_EQ(value_of("x < 4 && y > 4"), 1);
-  EXPECT_EQ(value_of("x < 4 and not y > 4"), 0);
-  EXPECT_EQ(value_of("x > 4 or x > 1 && y == 5"), 1);
-  EXPECT_EQ(value_of("!(x >= 3) || y != 5"), 0);
-  EXPECT_EQ(value_of("x <= 3 ? 10 : 20"), 10);
-  EXPECT_EQ(value_of("x + 10 * (y > 4)"), 13);
 }
 
 TEST(Formula, HasTheFunctionsThatAreListed) {
@@ -144,37 +123,6 @@ TEST(Formula, HasTheSameValuesOnSeveralThreadsAndInParts) {
     ASSERT_EQ(out[i], x[i] * x[i] + 1);
 }
 
-TEST(Formula, TellsWhatIsNoneInOneLine) {
-  const std::map<std::string, std::string> refusals = {
-      {"", "found the end"},
-      {"x +", "found the end"},
-      {"x y", "found y at character 3"},
-      {"(x", "expected an operator or )"},
-      {"x = 3", "expected == to compare"},
-      {"x & y", "expected && or and"},
-      {"1 < x < 3", "1 < x && x < 2"},
-      {"x && y > 1", "found the number x beside &&"},
-      {"(x > 1) > 0", "found the comparison"},
-      {"lg10(x)", "did you mean log10?"},
-      {"min(x)", "with 1 argument"},
-      {"sqrt(x, y)", "with 2 arguments"},
-      {"x; y", "found ';'"},
-      {"\"x\"", "found '\"'"},
-      {"f(x) + 1", "found the function f"},
-      {"x = f(x)", "expected == to compare"},
-      {"x[0]", "found '['"},
-      {"1e999", "expected a number such as 1.5e6"},
-      {"1.2.3", "expected a number"},
-      {"`x", "found a ` that begins no name"},
-      {"x > 1 ? 2", "expected a :"},
-  };
-  for (const auto& [text, expected] : refusals) {
-    const std::string refusal = refusal_of(text);
-    EXPECT_THAT(refusal, AllOf(HasSubstr("here: found"), HasSubstr(expected))) << text;
-    EXPECT_EQ(refusal.find('\n'), std::string::npos) << text;
-  }
-}
-
 std::string repeated(const std::string& text, int times) {
   std::string all;
   for (int i = 0; i < times; ++i)
@@ -214,41 +162,6 @@ std::string unit(const std::string& text) {
   return found ? found->text() : "none";
 }
 
-TEST(FormulaUnits, FollowFromProductsQuotientsAndPowers) {
-  EXPECT_EQ(unit("2 * T"), "K");
-  EXPECT_EQ(unit("T / 3 + 5"), "K");
-  EXPECT_EQ(unit("T * rho"), "K (g/cm^3)");
-  EXPECT_EQ(unit("1 / r^2"), "kpc^-2");
-  EXPECT_EQ(unit("sqrt(r * r)"), "kpc");
-  EXPECT_EQ(unit("T * rho^(-2/3)"), "K (g/cm^3)^-0.666667");
-  EXPECT_EQ(unit("max(r, 2 * abs(r))"), "kpc");
-  EXPECT_EQ(unit("T > 1 ? r : -r"), "kpc");
-  EXPECT_EQ(unit("r / r"), "none");
-  EXPECT_EQ(unit("log10(T * rho)"), "none");
-  EXPECT_EQ(unit("T * n"), "none");
-  EXPECT_EQ(unit("T > 5"), "none");
-}
-
-TEST(FormulaUnits, ThatDifferAreNotAddedNorCompared) {
-  for (const char* text : {"T + rho", "T > rho", "T == 1 || rho < T", "min(T, rho)",
-                           "T > 1 ? T : rho", "hypot(rho, T)", "T * r - rho * r"}) {
-    EXPECT_THROW(unit(text), UsageError) << text;
-  }
-  EXPECT_THAT(
-      [&] { unit("2 * T + rho > 3"); },
-      ThrowsMessage<UsageError>(AllOf(HasSubstr("here: found 2 * T in K beside rho in g/cm^3"))));
-}
-
-TEST(FormulaUnits, OfOneDimensionButNotOneSizeAreRefusedToo) {
-  EXPECT_THROW(unit("r + R"), UsageError);
-  EXPECT_EQ(unit("r / R"), "kpc Mpc^-1");
-}
-
-TEST(FormulaUnits, ThatAreNotKnownFitAll) {
-  EXPECT_EQ(unit("T + n"), "none");
-  EXPECT_EQ(unit("log10(T) + r"), "none");
-}
-
 // The number that a comparison has, in the unit of the field.
 double number_in(const std::string& text) {
   const Formula formula =
@@ -259,18 +172,40 @@ double number_in(const std::string& text) {
   return 0;
 }
 
-std::string refusal_of_units(const std::string& text) {
-  return refusal_by<UsageError>([&] { number_in(text); });
+class FormulaText : public ::testing::TestWithParam<TextRow> {};
+
+TEST_P(FormulaText, IsWorkedOutOrRefusedInOneLine) {
+  for (std::string text : GetParam().texts) {
+    text.pop_back();  // the end of its line
+    SCOPED_TRACE(text);
+    for (const std::string& part : GetParam().expected) {
+      const std::size_t blank = part.find(' ');
+      const std::string what = part.substr(0, blank), value = part.substr(blank + 1);
+      if (what == "is") {
+        EXPECT_EQ(value_of(text), std::stod(value));
+      } else if (what == "unit") {
+        EXPECT_EQ(unit(text), value);
+      } else if (what == "number") {
+        EXPECT_NEAR(number_in(text) / std::stod(value), 1, 5e-13);
+      } else if (value.rfind("units ", 0) == 0) {
+        const std::string refused = refusal_by<UsageError>([&] { number_in(text), unit(text); });
+        EXPECT_THAT(refused, HasSubstr(value.substr(6)));
+      } else {
+        ASSERT_EQ(what, "refused");
+        EXPECT_THAT(refusal_of(text),
+                    AllOf(HasSubstr("here: found"), HasSubstr(value), Not(HasSubstr("\n"))));
+      }
+    }
+  }
 }
 
-TEST(NumbersWithUnits, AreConvertedToWhatTheyAreComparedWith) {
-  EXPECT_NEAR(number_in("r < 2 Mpc"), 2000, 1e-9);
-  EXPECT_NEAR(number_in("2 Mpc > r"), 2000, 1e-9);
-  EXPECT_NEAR(number_in("v > -3e7 cm/s"), -300, 1e-9);
-  EXPECT_NEAR(number_in("rho >= 1 kg m^-3"), 1e-3, 1e-12);
-  EXPECT_NEAR(number_in("r < 2 Mpc/h a && T > T"), 2000 / 0.7 * 0.5, 1e-6);
-  EXPECT_NEAR(number_in("sqrt(r * r) == 1 Mpc"), 1000, 1e-9);
-  EXPECT_EQ(number_in("r < 2"), 2);
+INSTANTIATE_TEST_SUITE_P(Rows, FormulaText,
+                         ::testing::ValuesIn(read_text_rows(source_folder() /
+                                                            "tests/formula/formulas.rows")),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(Formula, OfNothingIsRefused) {
+  EXPECT_THAT(refusal_of(""), HasSubstr("here: found the end"));
 }
 
 TEST(NumbersWithUnits, OfEnergiesStandBesideTemperatures) {
@@ -287,21 +222,6 @@ TEST(NumbersWithUnits, AreRefusedWhereTheFieldsUnitHasAnUnknownFactor) {
       ThrowsMessage<UsageError>(HasSubstr("h")));
   EXPECT_NO_THROW(
       with_converted_numbers(Formula::parse("r < 2", "here"), in_units_of_h, {1, 0}, "here"));
-}
-
-TEST(NumbersWithUnits, ThatDoNotFitAreRefused) {
-  EXPECT_THAT(refusal_of_units("T > 1 kpc"),
-              HasSubstr("found 1 kpc beside T in \"T > 1 kpc\", which is in K"));
-  EXPECT_THAT(refusal_of_units("n > 1 kpc"), HasSubstr("whose unit is not known"));
-  EXPECT_THAT(refusal_of_units("r > 1 furlong"), HasSubstr("furlong"));
-  EXPECT_THAT(refusal_of_units("1 kpc < 2 kpc"), HasSubstr("found 1 kpc beside 2 kpc"));
-}
-
-TEST(NumbersWithUnits, AreRefusedElsewhere) {
-  for (const char* const text : {"r * 2 Mpc", "r + 2 Mpc > 3", "3 kpc", "-(2 Mpc)", "sqrt(2 Mpc)",
-                                 "r < 2 * 1 Mpc", "T > 1 ? 1 kpc : r"}) {
-    EXPECT_THAT(refusal_of_units(text), HasSubstr("only as one side of a comparison")) << text;
-  }
 }
 
 }  // namespace

@@ -90,13 +90,6 @@ TEST(Temperature, IsRefusedWhereTheUnitIsNotKnown) {
               HasSubstr("has \"erg\""));
 }
 
-TEST(Temperature, OfTheFileGoesFirst) {
-  NumberedSnapshot snapshot = gas_row(2);
-  snapshot.add(0, "temperature", {7, 8});
-  EXPECT_THAT(field("temperature", snapshot), ElementsAre(7, 8));
-  EXPECT_THAT(notes_of(colored_by("temperature"), snapshot), IsEmpty());
-}
-
 TEST(SmoothingLengths, ThatAreAllZeroAreFound) {
   NumberedSnapshot snapshot;
   std::vector<float> position;
@@ -107,32 +100,6 @@ TEST(SmoothingLengths, ThatAreAllZeroAreFound) {
   // Of the one at the end of the row, to its 64th neighbour.
   EXPECT_EQ(load(gas(), snapshot).particles.smoothing_length[0], 64);
   EXPECT_THAT(notes_of(gas(), snapshot), Contains(HasSubstr("are all 0: they do not count")));
-}
-
-TEST(DerivedFields, AreSpeedRadiusAndTheAxesOfVectors) {
-  NumberedSnapshot snapshot = gas_row(3);
-  snapshot.set_origin({{100, 0, 3}});
-  EXPECT_THAT(field("speed", snapshot), ElementsAre(0, 2, 4));
-  EXPECT_THAT(field("velocity_y", snapshot), ElementsAre(0, 2, 4));
-  EXPECT_THAT(field("velocity_x", snapshot), ElementsAre(0, 0, 0));
-  EXPECT_THAT(field("position_x", snapshot), ElementsAre(100, 101, 102));
-  EXPECT_THAT(field("position_z", snapshot), ElementsAre(3, 3, 3));
-  Component component = colored_by("radius");
-  component.center = {{101, 0, 0}};
-  const std::vector<float> radii = values(load(component, snapshot).particles.color);
-  EXPECT_THAT(radii, ElementsAre(std::sqrt(10.0f), 3, std::sqrt(10.0f)));
-}
-
-TEST(DerivedFields, MayBeTheSizeTheIntensityAndTheOrder) {
-  Scene scene = scene_of({gas()});
-  scene.components[0].size_field = "speed";
-  scene.components[0].intensity.field = "position_x";
-  scene.sort.by = SortOrder::By::field;
-  scene.sort.field = "radius";
-  const Particles particles = load(scene, gas_row(3)).components[0].particles;
-  EXPECT_THAT(values(particles.smoothing_length), ElementsAre(0, 2, 4));
-  EXPECT_THAT(values(particles.intensity), ElementsAre(0, 1, 2));
-  EXPECT_THAT(values(particles.sort_field), ElementsAre(0, 1, 2));
 }
 
 TEST(DerivedFields, AreMadeOnceForAllFrames) {
@@ -220,18 +187,8 @@ TEST(ColorVector, IsReadAsItIs) {
   Component component = gas();
   component.color_vector = "velocity";
   const DrawnComponent drawn = load(component, gas_row(2));
-  EXPECT_THAT(values(drawn.particles.color_vector), ElementsAre(0, 0, 0, 0, 2, 0));
   EXPECT_TRUE(drawn.particles.color.is_absent());
   EXPECT_FALSE(drawn.palette.has_own_absorption());
-}
-
-TEST(ColorVector, RefusesFieldsThatAreNoVectors) {
-  Component component = gas();
-  component.color_vector = "mass";
-  EXPECT_THAT(refusal(component, gas_row()),
-              HasSubstr("color.vector is \"mass\", which has 1 value per particle"));
-  component.color_vector = "Colour";
-  EXPECT_THAT(refusal(component, gas_row()), HasSubstr("color.vector is \"Colour\", which"));
 }
 
 TEST(AbsorptionPalette, GivesTheComponentAnAbsorptionOfItsOwn) {
@@ -248,12 +205,6 @@ TEST(AbsorptionPalette, ThatIsThePaletteKeepsEProportionalToA) {
   Component component = colored_by("mass");
   component.absorption_palette = component.palette;
   EXPECT_FALSE(load(component, gas_row()).palette.has_own_absorption());
-}
-
-TEST(AbsorptionPalette, MustExist) {
-  Component component = gas();
-  component.absorption_palette = "grya";
-  EXPECT_THAT(refusal(component, gas_row()), HasSubstr("did you mean gray?"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // From a scene and a snapshot to a frame: what is read, and how open numbers are decided.
+#include "load/component_rows.h"
 #include "load/particles.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/load.h"
@@ -6,6 +7,10 @@
 
 namespace splotchcl::test {
 namespace {
+
+INSTANTIATE_TEST_SUITE_P(Loaded, ComponentKeys,
+                         ::testing::ValuesIn(component_rows("load/components.rows")),
+                         name_of_component_row);
 
 // A row of gas particles along x, all seen by the scene's camera.
 MemorySnapshot centered_gas_row(int count = 5) {
@@ -140,23 +145,6 @@ TEST(LoadFrameWeight, IsConstantWhereNoMassIsKnown) {
   EXPECT_THAT(refusal(scene_of({wants_mass}), snapshot), HasSubstr("have no masses"));
 }
 
-TEST(LoadFrameColor, RangeIsTheBulkOfTheScaledData) {
-  Component component = gas();
-  component.color = {"internal_energy", Scaling::log, {}, {}};
-  const DrawnComponent drawn = load(component, centered_gas_row());
-  // 0.5 % of the way from the lowest of five to the next.
-  EXPECT_NEAR(drawn.color.minimum, 0.02, 1e-6);
-  EXPECT_NEAR(drawn.color.maximum, 3.98, 1e-6);
-}
-
-TEST(LoadFrameColor, LimitsOfTheSceneAreBeforeScaling) {
-  Component component = gas();
-  component.color = {"internal_energy", Scaling::log, 0.1, 1e6};
-  const DrawnComponent drawn = load(component, centered_gas_row());
-  EXPECT_NEAR(drawn.color.minimum, -1, 1e-12);
-  EXPECT_NEAR(drawn.color.maximum, 6, 1e-12);
-}
-
 TEST(LoadFrameColor, ALimitBeyondAllDataKeepsThemBeyondIt) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::linear, 1e9, {}};
@@ -169,17 +157,6 @@ TEST(LoadFrameColor, RefusesALimitWithoutALogarithm) {
   Component component = gas();
   component.color = {"internal_energy", Scaling::log, 0.0, {}};
   EXPECT_THAT(refusal(scene_of({component}), centered_gas_row()), HasSubstr("color.min is 0"));
-}
-
-TEST(LoadFrameColor, WithoutAFieldIsToldWhereItIsDark) {
-  Component component = gas();
-  component.palette = "inferno";
-  EXPECT_THAT(notes_of(component, centered_gas_row()), Contains(HasSubstr("without color.field")));
-  component.palette = "stars";
-  EXPECT_THAT(notes_of(component, centered_gas_row()), Not(Contains(HasSubstr("color.field"))));
-  component.palette = "inferno";
-  component.color.field = "internal_energy";
-  EXPECT_THAT(notes_of(component, centered_gas_row()), Not(Contains(HasSubstr("color.field"))));
 }
 
 TEST(LoadFrameColor, OfOneValueForAllIsTheMiddleOfThePalette) {
@@ -212,44 +189,10 @@ TEST(LoadFrameColor, KeepsARangeBeyondALargeLimit) {
   EXPECT_GT(load(component, snapshot).color.maximum, 3.00001e20);
 }
 
-TEST(LoadFrameColor, SaysWhenNoValueCanBeScaled) {
-  MemorySnapshot snapshot = centered_gas_row();
-  snapshot.add(0, "temperature", std::vector<float>(5, 0));
-  Component component = gas();
-  component.color = {"temperature", Scaling::log, {}, {}};
-  EXPECT_THAT(notes_of(component, snapshot), Contains(HasSubstr("no particle has a temperature")));
-}
-
-TEST(LoadFrameColor, OfAVectorIsItsLength) {
-  MemorySnapshot snapshot = centered_gas_row(2);
-  snapshot.add(0, "velocity", {3, 4, 0, 0, -5, 12}, 3);
-  Component component = gas();
-  component.color.field = "velocity";
-  EXPECT_THAT(values(load(component, snapshot).particles.color, 2), ElementsAre(5, 13));
-}
-
-TEST(LoadFrameColor, NamesAFieldThatIsNotThere) {
-  Component component = gas();
-  component.color.field = "internal_enrgy";
-  const std::string message = refusal(scene_of({component}), centered_gas_row());
-  EXPECT_THAT(message, HasSubstr("component gas: color.field is \"internal_enrgy\""));
-  EXPECT_THAT(message, HasSubstr("did you mean internal_energy?"));
-}
-
-TEST(LoadFrameSort, ReadsTheFieldThatTheSceneSortsBy) {
-  Scene scene = scene_of({gas()});
-  scene.sort.by = SortOrder::By::field;
-  scene.sort.field = "internal_energy";
-  EXPECT_EQ(load(scene, centered_gas_row()).components[0].particles.sort_field[2], 100);
-  scene.sort.field = "rank";
-  EXPECT_THAT(refusal(scene, centered_gas_row()), HasSubstr("sort.by is \"rank\""));
-}
-
 TEST(LoadFrameIntensity, HasARangeLikeTheColor) {
   Component component = gas();
   component.intensity = {"internal_energy", Scaling::log, 1, 1e4};
   const DrawnComponent drawn = load(component, centered_gas_row());
-  EXPECT_EQ(drawn.particles.intensity[1], 10);
   EXPECT_EQ(drawn.intensity.maximum, 4);
 }
 
@@ -310,12 +253,6 @@ TEST(LoadFrameSize, FixedReplacesTheField) {
   const MemorySnapshot snapshot = centered_gas_row();
   EXPECT_EQ(load(component, snapshot).particles.smoothing_length[3], 0.75f);
   EXPECT_THAT(snapshot.fields_read(), Not(Contains("smoothing_length")));
-}
-
-TEST(LoadFrameSize, MayBeAnyField) {
-  Component component = gas();
-  component.size_field = "mass";
-  EXPECT_EQ(load(component, centered_gas_row()).particles.smoothing_length[3], 4);
 }
 
 TEST(LoadFrameDensity, IsEstimatedFromSizesWhereTheFileHasNone) {

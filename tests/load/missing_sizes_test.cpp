@@ -263,14 +263,5 @@ TEST(RealTemperature, OfACosmologicalBoxIsThatOfIntergalacticGas) {
   EXPECT_LT(map.maximum, 8.5);
 }
 
-TEST(ComponentExamples, AreScenesWithPalettesThatExist) {
-  for (const char* name : {"cluster.toml", "planted_galaxy.toml"}) {
-    const Scene scene = read_scene_file(source_folder() / "examples" / name);
-    EXPECT_GE(scene.components.size(), 3u) << name;
-    for (const Component& component : scene.components)
-      EXPECT_NO_THROW(load_palette(component.palette)) << name;
-  }
-}
-
 }  // namespace
 }  // namespace splotchcl::test

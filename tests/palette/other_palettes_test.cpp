@@ -9,41 +9,6 @@ std::string refusal_of_palette(const std::string& text, const std::string& name)
   return test::refusal_by<DataError>([&] { parse_palette(text, name); });
 }
 
-const std::vector<Rgb> red_white_blue = {{1, 0, 0}, {1, 1, 1}, {0, 0, 1}};
-
-class PaletteOfThree : public ::testing::TestWithParam<std::pair<const char*, const char*>> {};
-
-TEST_P(PaletteOfThree, IsReadAsItIs) {
-  const auto& [name, text] = GetParam();
-  EXPECT_EQ(parse_palette(text, name).emission, red_white_blue);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Forms, PaletteOfThree,
-    ::testing::Values(std::pair("255.txt", "255 0 0\n255 255 255\n0 0 255\n"),
-                      std::pair("commas.txt", "1.0, 0.0, 0.0\n1, 1, 1\n0;0;1\n"),
-                      std::pair("names.csv", "r,g,b\n1,0,0\n1,1,1\n0,0,1\n"),
-                      std::pair("ncl.rgb", "ncolors=3\n# r g b\n255 0 0\n255 255 255\n0 0 255\n"),
-                      std::pair("alpha.txt", "1 0 0 1\n1 1 1 1\n0 0 1 1\n"),
-                      std::pair("alpha_255.txt", "255 0 0 255\n255 255 255 255\n0 0 255 255\n"),
-                      std::pair("places.txt", "0 255 0 0\n50 255 255 255\n100 0 0 255\n"),
-                      std::pair("hex.txt", "#ff0000\n#FFFFFF\n#0000ff\n"),
-                      std::pair("hex_alone.txt", "ff0000\nffffff\n0000ffff\n"),
-                      std::pair("mine.gpl",
-                                "GIMP Palette\nName: mine\nColumns: 3\n#\n255   0   0\tred 1\n"
-                                "255 255 255\tUntitled\n  0   0 255\n"),
-                      std::pair("mine.cpt",
-                                "# COLOR_MODEL = RGB\n0 255 0 0 1 255 255 255\n"
-                                "1 255/255/255 2 0/0/255 ;label\nB 0 0 0\nF 1 1 1\nN 9 9 9\n"),
-                      std::pair("map.json",
-                                "[{\"Name\":\"mine\",\"ColorSpace\":\"RGB\",\"RGBPoints\":"
-                                "[-1,1,0,0,0,1,1,1,1,0,0,1]}]\n"),
-                      std::pair("map.xml",
-                                "<?xml version=\"1.0\"?><ColorMaps>\n<ColorMap name=\"a\" "
-                                "space=\"RGB\"><Point x=\"0\" o=\"1\" r=\"1\" g=\"0\" b=\"0\"/>\n"
-                                "<Point x='.5' r='1' g='1' b='1'/><Point x=\"1\" r=\"0\" g=\"0\" "
-                                "b=\"1\"></Point></ColorMap></ColorMaps>\n")));
-
 TEST(OtherPalettes, AtUnevenPlacesHaveTheirColorsThere) {
   const Palette palette = parse_palette("0 1 0 0\n0.25 1 1 1\n1 0 0 1\n", "p.txt");
   EXPECT_NEAR(sample_knots(palette.emission, 0.25)[1], 1, 0.01);
@@ -154,11 +119,6 @@ TEST(OtherPalettes, OfParaviewThatDivergeFromGrayDoNotGoOverWhite) {
     EXPECT_LT(color[1], 0.5);
 }
 
-TEST(OtherPalettes, AreNoTablesOfParticles) {
-  EXPECT_THAT(refusal_of_palette("x y z mass\n0 0.1 0.2 1\n1 0.5 0.5 1\n", "a.txt"),
-              HasSubstr("found a column \"y\", as of particles"));
-}
-
 TEST(OtherPalettes, OfMoreRowsThanPalettesHaveAreRefused) {
   std::string rows;
   for (int row = 0; row <= 4096; ++row)
@@ -167,37 +127,6 @@ TEST(OtherPalettes, OfMoreRowsThanPalettesHaveAreRefused) {
   EXPECT_THAT(
       refusal_of_palette(numpy_array("|u1", "(4097, 3)", std::string(12291, '\1')), "a.npy"),
       HasSubstr("at most 4096 rows"));
-}
-
-TEST(OtherPalettes, OfFewColorsInOtherSpacesAreRefused) {
-  EXPECT_THAT(
-      refusal_of_palette("[{\"ColorSpace\":\"HSV\",\"RGBPoints\":[0,0,0,1,1,1,0,0]}]", "a.json"),
-      HasSubstr("2 colors to be joined in the space HSV"));
-  EXPECT_THAT(refusal_of_palette("# COLOR_MODEL = HSV\n0 0 1 1 1 360 1 1\n", "a.cpt"),
-              HasSubstr("expected COLOR_MODEL = RGB"));
-}
-
-TEST(OtherPalettes, ThatAreDamagedAreRefused) {
-  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
-           {"a.json", "[{\"RGBPoints\":[0,0,0]}]"},
-           {"a.json", "{\"RGBPoints\":"},
-           {"a.json", "[]"},
-           {"a.json", "[{\"RGBPoints\":[0,0,2,0]}]"},
-           {"a.xml", "<ColorMaps></ColorMaps>"},
-           {"a.xml", "<ColorMap name=\"a\"></ColorMap>"},
-           {"a.xml", "<ColorMap><Point x=\"0\" r=\"1\"/></ColorMap>"},
-           {"a.cpt", "1 0 0 0 0 1 1 1\n"},
-           {"a.cpt", "0 0 0 0 1 1 1\n"},
-           {"a.cpt", ""},
-           {"a.sao", "PSEUDOCOLOR\nRED:\n(0,0)(1\n"},
-           {"a.sao", "PSEUDOCOLOR\nRED:\n(0,0)(1,1)\n"},
-           {"a.gpl", "GIMP Palette\nName: a\n"},
-           {"a.gpl", "GIMP Palette\n1 2\n"},
-           {"a.gpl", "GIMP Palette\n1 2 256\n"}}) {
-    const std::string message = refusal_of_palette(text, name);
-    EXPECT_THAT(message, AllOf(HasSubstr(name), HasSubstr("expected"), Not(HasSubstr("\n"))))
-        << text;
-  }
 }
 
 }  // namespace

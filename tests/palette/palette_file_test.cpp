@@ -1,16 +1,13 @@
 #include "palette/palette_file.h"
 
 #include "testing.h"
+#include "text_rows.h"
 
 namespace splotchcl {
 namespace {
 
 Palette parse(const std::string& text) {
   return parse_palette(text, "p.txt");
-}
-
-std::string message_for(const std::string& text) {
-  return test::refusal_by<DataError>([&] { parse(text); });
 }
 
 TEST(PaletteFile, HasAKnotPerLine) {
@@ -38,54 +35,39 @@ TEST(PaletteFile, ReadsNumbersAsTheyAreWritten) {
   EXPECT_THAT(parse("1e-3 .5 1.").emission, ElementsAre(Rgb{1e-3f, 0.5f, 1}));
 }
 
-struct Refused {
-  std::string text, message;
-};
-void PrintTo(const Refused& refused, std::ostream* out) {
-  *out << refused.text;
+class PaletteText : public ::testing::TestWithParam<test::TextRow> {};
+
+TEST_P(PaletteText, IsReadOrRefusedInOneLine) {
+  const std::string& text = GetParam().texts.front();
+  std::string file = "p.txt";
+  for (const std::string& part : GetParam().expected) {
+    const std::size_t blank = part.find(' ');
+    const std::string what = part.substr(0, blank), value = part.substr(blank + 1);
+    if (what == "file") {
+      file = value;
+    } else if (what == "red_white_blue") {
+      EXPECT_THAT(parse_palette(text, file).emission,
+                  ElementsAre(Rgb{1, 0, 0}, Rgb{1, 1, 1}, Rgb{0, 0, 1}));
+    } else {
+      ASSERT_EQ(what, "refused");
+      EXPECT_THAT(
+          test::refusal_by<DataError>([&] { parse_palette(text, file); }),
+          AllOf(HasSubstr(value), StartsWith(file), HasSubstr("expected"), Not(HasSubstr("\n"))));
+    }
+  }
 }
-class PaletteFileRefuses : public ::testing::TestWithParam<Refused> {};
 
-TEST_P(PaletteFileRefuses, InOneLineThatSaysWhere) {
-  const std::string message = message_for(GetParam().text);
-  EXPECT_THAT(message, StartsWith(GetParam().message));
-  EXPECT_THAT(message, HasSubstr("expected"));
-  EXPECT_THAT(message, Not(HasSubstr("\n")));
+INSTANTIATE_TEST_SUITE_P(Rows, PaletteText,
+                         ::testing::ValuesIn(test::read_text_rows(test::source_folder() /
+                                                                  "tests/palette/palettes.rows")),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(PaletteFile, OfNothingIsRefused) {
+  for (const char* const name : {"p.txt", "a.cpt"}) {
+    EXPECT_THAT(test::refusal_by<DataError>([&] { parse_palette("", name); }),
+                AllOf(StartsWith(name), HasSubstr("found no "), HasSubstr("expected")));
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    OurOwn, PaletteFileRefuses,
-    ::testing::Values(Refused{"", "p.txt: found no knots"},
-                      Refused{"# nothing\n", "p.txt: found no knots"},
-                      Refused{"0 0 0\n0 0\n", "p.txt:2: found 2 numbers, expected 3"},
-                      Refused{"0 0\n", "p.txt:1: found 2 numbers, expected 3 (red"},
-                      Refused{"0 0 0 0\n", "p.txt:1: found 4 numbers"},
-                      Refused{"0 0 0\n\n0 0 0 0 0 0\n", "p.txt:3: found 6 numbers, expected 3 as"},
-                      Refused{"0 0 0 1 1 1\n0 0 0\n", "p.txt:2: found 3 numbers, expected 6 as"},
-                      Refused{"0 0 1.01\n", "p.txt:1: found \"1.01\", expected a number from 0"},
-                      Refused{"0 -0.1 1\n", "p.txt:1: found \"-0.1\""},
-                      Refused{"255 255 256\n", "p.txt:1: found \"256\""},
-                      Refused{"255 0.5 0\n", "p.txt:1: found \"255\""},
-                      Refused{"nan 0 0\n", "p.txt:1: found \"nan\""},
-                      Refused{"inf 0 0\n", "p.txt:1: found \"inf\""},
-                      Refused{"1e99 0 0\n", "p.txt:1: found \"1e99\""},
-                      Refused{"0.5x 0 0\n", "p.txt:1: found \"0.5x\""},
-                      Refused{"red green blue\n", "p.txt:1: found \"red\""},
-                      Refused{"0 0 0\nred green blue\n", "p.txt:2: found \"red\""},
-                      Refused{"0 0 0 0.5\n1 1 1 0.5\n0 0 0 1\n", "p.txt:1: found 4 numbers that"}));
-
-INSTANTIATE_TEST_SUITE_P(
-    TheOriginals, PaletteFileRefuses,
-    ::testing::Values(Refused{"Name\n0100\n", "p.txt:3: found \"\", expected the number of knots"},
-                      Refused{"Name\n0100\nmany\n", "p.txt:3: found \"many\""},
-                      Refused{"Name\n0100\n0\n", "p.txt:3: found \"0\""},
-                      Refused{"Name\n0100\n-1\n", "p.txt:3: found \"-1\""},
-                      Refused{"Name\n0100\n2\n0 0 0\n", "p.txt: found 1 knots, expected 2"},
-                      Refused{"Name\n0100\n1\n0 0 0\n1 1 1\n", "p.txt: found 2 knots, expected 1"},
-                      Refused{"Name\n0100\n1\n0 0 256\n", "p.txt:4: found \"256\""},
-                      Refused{"Name\n0100\n1\n0 0\n", "p.txt:4: found 2 numbers, expected 3"},
-                      Refused{"Name\n0100\n99999999999999999999\n", "p.txt:3: found"},
-                      Refused{"Name\n0100\n9999999999999\n0 0 0\n", "p.txt: found 1 knots"}));
 
 TEST(OriginalPaletteFile, IsKnownByItsSecondLine) {
   const Palette palette = parse("Rainbow\n0100\n3\n  0   0 255\n128 255 128\n255   0   0\n\n");

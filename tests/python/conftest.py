@@ -82,3 +82,15 @@ def arrays() -> dict[str, np.ndarray]:
 @pytest.fixture
 def particles(arrays) -> splotchcl.Particles:
     return splotchcl.Particles().gas(**arrays)
+
+
+class WithUnit(np.ndarray):
+    """As unyt, swiftsimio and pynbody have them."""
+
+    units: str
+
+
+def in_unit(values, unit):
+    array = np.asarray(values).view(WithUnit)
+    array.units = unit
+    return array

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import splotchcl
-from conftest import make_arrays
+from conftest import in_unit, make_arrays
 from splotchcl import Particles, UsageError
 
 SIZE = (48, 48)
@@ -270,35 +270,6 @@ def test_another_number_of_particles_needs_clear(arrays):
     assert len(particles["gas"]) == 7
 
 
-class WithUnit(np.ndarray):
-    """As unyt, swiftsimio and pynbody have them."""
-
-    units: str
-
-
-def in_unit(values, unit):
-    array = np.asarray(values).view(WithUnit)
-    array.units = unit
-    return array
-
-
-def test_mixed_units_are_refused(arrays):
-    particles = Particles().gas(position=in_unit(arrays["position"], "kpc"))
-    with pytest.raises(UsageError, match="the unit Mpc, expected kpc"):
-        particles.gas(smoothing_length=in_unit(arrays["smoothing_length"], "Mpc"))
-    with pytest.raises(UsageError, match="the unit Mpc, expected kpc"):
-        particles.stars(position=in_unit(arrays["position"], "Mpc"))
-
-
-def test_a_refused_array_leaves_no_unit(arrays):
-    particles = Particles()
-    with pytest.raises(UsageError):
-        particles.gas(position=in_unit(arrays["position"].T, "Mpc"))
-    assert particles.units == {}
-    particles.gas(position=in_unit(arrays["position"], "kpc"))
-    assert particles.units == {"length": "kpc"}
-
-
 def test_units_go_with_their_arrays(arrays):
     particles = Particles().gas(position=in_unit(arrays["position"], "kpc"))
     particles.gas(position=in_unit(arrays["position"], "Mpc"))
@@ -320,25 +291,11 @@ def test_lengths_that_are_replaced_together_may_change_their_unit(arrays):
     assert particles.units == {"length": "Mpc"}
 
 
-def test_the_unit_of_a_field_has_one_name_for_all_types(arrays):
-    particles = Particles().gas(Masses=in_unit(arrays["mass"], "g"))
-    with pytest.raises(UsageError, match="field mass: the unit kg, expected g"):
-        particles.stars(mass=in_unit(arrays["mass"], "kg"))
-
-
 def test_a_field_has_the_unit_of_its_array(arrays):
     particles = Particles().gas(
         position=arrays["position"], temperature=in_unit(arrays["temperature"], "keV")
     )
     assert particles["gas"].fields == {"position": "", "temperature": "keV"}
-
-
-def test_a_number_for_all_masses_keeps_its_unit(arrays):
-    particles = Particles().gas(position=arrays["position"], mass=in_unit(arrays["mass"], "g"))
-    with pytest.raises(UsageError, match="the unit kg, expected g"):
-        particles.stars(position=arrays["position"], mass=in_unit(np.array(2.0), "kg"))
-    particles.stars(position=arrays["position"], mass=in_unit(np.array(2.0), "g"))
-    assert particles.units == {"mass": "g"}
 
 
 def test_a_number_for_all_masses_with_a_unit_becomes_masses_of_that_unit(arrays):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import splotchcl
-from conftest import make_arrays
+from conftest import in_unit, make_arrays
 from splotchcl import DataError, Particles, Snapshot, UsageError
 
 
@@ -148,18 +148,6 @@ def test_what_progress_raises_ends_a_film_and_keeps_its_frames(universe, tmp_pat
         splotchcl.movie(scene, tmp_path / "f_%02d.png", progress=stop)
     assert sorted(path.name for path in tmp_path.glob("f_*.png")) == ["f_00.png", "f_01.png"]
     assert splotchcl.movie(scene, tmp_path / "f_%02d.png").state == "complete"
-
-
-class WithUnit(np.ndarray):
-    """As unyt and pynbody have them."""
-
-    units: str
-
-
-def in_unit(values, unit):
-    array = np.asarray(values).view(WithUnit)
-    array.units = unit
-    return array
 
 
 def map_of(arrays, length, mass, **settings):

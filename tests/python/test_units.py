@@ -1,9 +1,11 @@
-"""Arrays keep their units, and units that do not agree are refused: with the packages themselves."""
+"""Arrays keep their units, and units that do not agree are refused: with the packages themselves,
+where they are installed, and with an array that has a unit as theirs have it."""
 
 import numpy as np
 import pytest
 
 import splotchcl
+from conftest import in_unit
 from splotchcl import Particles, UsageError
 
 
@@ -20,7 +22,8 @@ def in_pynbody(values, unit):
     return pytest.importorskip("pynbody.array").SimArray(values, unit)
 
 
-KINDS = [in_unyt, in_astropy, in_pynbody]
+PACKAGES = [in_unyt, in_astropy, in_pynbody]
+KINDS = [in_unit, *PACKAGES]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -43,16 +46,18 @@ def test_mixed_units_of_length_are_refused(arrays, kind):
     particles = Particles().gas(position=kind(arrays["position"], "kpc"))
     with pytest.raises(UsageError, match="the unit Mpc, expected kpc"):
         particles.gas(smoothing_length=kind(arrays["smoothing_length"], "Mpc"))
+    with pytest.raises(UsageError, match="the unit Mpc, expected kpc"):
+        particles.stars(position=kind(arrays["position"], "Mpc"))
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_one_field_has_one_unit_over_all_types(arrays, kind):
-    particles = Particles().gas(position=arrays["position"], mass=kind(arrays["mass"], "g"))
-    with pytest.raises(UsageError, match="the unit kg, expected g"):
+    particles = Particles().gas(position=arrays["position"], Masses=kind(arrays["mass"], "g"))
+    with pytest.raises(UsageError, match="field mass: the unit kg, expected g"):
         particles.stars(position=arrays["position"], mass=kind(arrays["mass"], "kg"))
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", PACKAGES)
 def test_what_has_no_dimension_has_no_unit(arrays, kind):
     ratio = kind(arrays["mass"], "kpc") / kind(arrays["mass"], "kpc")
     particles = Particles().gas(position=arrays["position"], ratio=ratio)
@@ -77,6 +82,7 @@ def test_a_refused_array_leaves_no_unit(arrays, kind):
     particles = Particles()
     with pytest.raises(UsageError):
         particles.gas(position=kind(arrays["position"].T, "Mpc"))
+    assert particles.units == {}
     particles.gas(position=kind(arrays["position"], "kpc"))
     assert particles.units == {"length": "kpc"}
 
@@ -87,9 +93,10 @@ def test_a_number_keeps_its_unit(arrays, kind):
     with pytest.raises(UsageError, match="the unit kg, expected g"):
         particles.stars(position=arrays["position"], mass=kind(2.0, "kg"))
     particles.stars(position=arrays["position"], mass=kind(2.0, "g"))
+    assert particles.units == {"mass": "g"}
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", PACKAGES)
 def test_the_unit_of_a_density_is_that_of_its_map(renderer, arrays, kind):
     unit = "Msun * kpc**-3" if kind is in_unyt else "Msun kpc**-3"
     if kind is in_pynbody:

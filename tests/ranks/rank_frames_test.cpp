@@ -209,35 +209,17 @@ TEST_P(RankFrames, DrawInRoundsWhereMemoryAsksForIt) {
   }
 }
 
-TEST_P(RankFrames, HoldSlabs) {
-  Frame frame = many_clouds(1000);
-  frame.tolerance = 1e-2;
-  for (const int slabs : {1, 3}) {
-    for (const int ranks : {2, 4})
-      expect_same_bits(frame, ranks, slabs);
+TEST_P(RankFrames, HaveTheBitsOfOneProcessWhateverIsDivided) {
+  for (const DividedFrame& divided : divided_frames()) {
+    SCOPED_TRACE(divided.name);
+    for (const int ranks : divided.ranks)
+      expect_same_bits(divided.frame, ranks, divided.slabs);
+    const bool is_in_sums_too = divided.frame.tolerance == 0 || divided.least == 0;
+    if (is_in_sums_too) expect_same_bits(without_absorption(divided.frame), divided.ranks.front());
   }
-}
-
-TEST_P(RankFrames, KeepTheOrderOfSplatsOfOneKey) {
-  Frame frame = many_clouds(1000);
-  frame.sort.by = SortOrder::By::field;
-  for (const bool descending : {false, true}) {
-    frame.sort.descending = descending;
-    give_few_fields(frame, 10);
-    for (const int ranks : {2, 3})
-      expect_same_bits(frame, ranks);
-  }
-}
-
-TEST_P(RankFrames, HoldExtendedPrecision) {
-  Frame frame = many_clouds(300);
-  frame.tolerance = 0;
-  expect_same_bits(frame, 2);
-  expect_same_bits(without_absorption(frame), 2);
-}
-
-TEST_P(RankFrames, HoldTheCopiesOfPanoramas) {
-  expect_same_bits(panorama_of_clouds(500), 2);
+  Frame without_components = many_clouds(100);
+  without_components.components.clear();
+  expect_same_bits(without_components, 3);
 }
 
 TEST_P(RankFrames, HoldCloudsAroundTheCamera) {
@@ -324,15 +306,6 @@ TEST_P(RankFrames, HoldFramesWithFewerSplatsThanRanks) {
     expect_same_bits(frame, 4);
     expect_same_bits(without_absorption(frame), 4);
   }
-}
-
-TEST_P(RankFrames, HoldAnEmptyFrame) {
-  Frame frame = many_clouds(100);
-  frame.camera.position = {{0, 0, 1e6}};
-  expect_same_bits(frame, 3);
-  expect_same_bits(without_absorption(frame), 3);
-  frame.components.clear();
-  expect_same_bits(frame, 3);
 }
 
 }  // namespace

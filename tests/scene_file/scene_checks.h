@@ -22,6 +22,22 @@ inline void expect_same(const Scene& a, const Scene& b) {
   }
 }
 
+// A key's value as TOML, or "none"; of a component "component.0.palette".
+inline std::string value_of(const Scene& scene, const std::string& path) {
+  static const std::string of_components = "component.";
+  std::string key = path;
+  std::size_t component = 0;
+  if (key.rfind(of_components, 0) == 0) {
+    const std::size_t dot = key.find('.', of_components.size());
+    component = std::stoul(key.substr(of_components.size(), dot));
+    key.erase(of_components.size(), dot + 1 - of_components.size());
+  }
+  const bool is_there = key.rfind("camera.", 0) != 0 || scene.camera;
+  const scene_file::Key* const found = scene_file::find_key(key);
+  if (found == nullptr) return "no such key as " + key;
+  return is_there ? found->get(scene, component).value_or("none") : "none";
+}
+
 // What a user is told about this text and these settings.
 inline std::string message_for(const std::string& text,
                                const std::vector<std::string>& settings = {}) {

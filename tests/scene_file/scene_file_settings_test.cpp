@@ -2,6 +2,7 @@
 #include "scene_file/suggested.h"
 #include "splotchcl/scene_file.h"
 #include "testing.h"
+#include "text_rows.h"
 
 namespace splotchcl::test {
 namespace {
@@ -33,20 +34,6 @@ TEST(Settings, OfWhichThereAreNoneLeaveTheScene) {
   expect_same(with({}), parse_scene(text, "scene.toml"));
 }
 
-TEST(Settings, OverrideTheFile) {
-  EXPECT_EQ(with({"tolerance=0.5"}).tolerance, 0.5);
-  EXPECT_EQ(with({"camera.field_of_view=30"}).camera->field_of_view_degrees, 30);
-  EXPECT_EQ(with({"snapshot=other"}).snapshot, "other");
-}
-
-TEST(Settings, MoveTheCameraToACenterWithoutTurningIt) {
-  const Camera camera = *with({"camera.center=[1,2,3]", "camera.width=5"}).camera;
-  EXPECT_TRUE(same(camera.look_at, {{1, 2, 3}}));
-  EXPECT_TRUE(same(camera.position, {{1, 2, -7}}));
-  EXPECT_EQ(camera.width, 5);
-  EXPECT_FALSE(camera.center);
-}
-
 TEST(Settings, LookFromAboveWhereACameraHasNoPlaceButACenter) {
   const Camera camera =
       *parse_scene("snapshot = 'a'\n[camera]\ncenter = [1, 2, 3]\nwidth = 10\n", "s.toml").camera;
@@ -63,68 +50,9 @@ TEST(Settings, ChangeNothingElse) {
   expect_same(with({"image.size=[640,480]"}), expected);
 }
 
-TEST(Settings, AddressComponentsByNumberAndByName) {
-  EXPECT_EQ(with({"component.0.palette=magma"}).components[0].palette, "magma");
-  EXPECT_EQ(with({"component.gas.palette=magma"}).components[0].palette, "magma");
-  EXPECT_EQ(with({"component.1.brightness=3"}).components[1].brightness, 3);
-  EXPECT_EQ(with({"component.dark.matter.palette=halo"}).components[2].palette, "halo");
-}
-
-TEST(Settings, TakeTomlValues) {
-  EXPECT_TRUE(same(with({"camera.sky=[0, 1.5, 2]"}).camera->sky, {{0, 1.5, 2}}));
-  EXPECT_EQ(with({"snapshot=\"a = b\""}).snapshot, "a = b");
-  EXPECT_THAT(with({"component.1.types=[0, \"stars\"]"}).components[1].types, ElementsAre(0, 4));
-}
-
-TEST(Settings, TakeBareWordsForStrings) {
-  EXPECT_EQ(with({"sort.order=descending"}).sort.descending, true);
-  EXPECT_EQ(with({"snapshot=data/snap_092.0.hdf5"}).snapshot, "data/snap_092.0.hdf5");
-  EXPECT_EQ(with({"snapshot=a=b"}).snapshot, "a=b");
-}
-
-TEST(Settings, TakeWhatLooksLikeANumberForAStringWhereOneIsExpected) {
-  EXPECT_EQ(with({"snapshot=092"}).snapshot, "092");
-  EXPECT_EQ(with({"snapshot=92"}).snapshot, "92");
-  EXPECT_EQ(with({"component.gas.name=2024-01-01"}).components[0].name, "2024-01-01");
-  EXPECT_EQ(with({"component.gas.color.field=true"}).components[0].color.field, "true");
-}
-
-TEST(Settings, MayHaveSpacesAroundKeyAndValue) {
-  EXPECT_EQ(with({" tolerance = 0.5 "}).tolerance, 0.5);
-  EXPECT_EQ(with({" snapshot = a file "}).snapshot, "a file");
-}
-
-TEST(Settings, TakeTables) {
-  const Scene scene = with({"component.gas.color={field=\"U\", min=1}"});
-  EXPECT_EQ(scene.components[0].color.field, "U");
-  EXPECT_EQ(scene.components[0].color.minimum, 1);
-}
-
 TEST(Settings, MayDependOnEachOtherInAnyOrder) {
   expect_same(with({"component.0.color.min=1", "component.0.color.field=U"}),
               with({"component.0.color.field=U", "component.0.color.min=1"}));
-}
-
-TEST(Settings, TakeFogForTheEndOfLight) {
-  const Scene scene =
-      with({"camera.position=[0,0,-1]", "camera.look_at=[0,0,0]", "camera.fog=[20,50]"});
-  EXPECT_EQ(scene.camera->far_limit, 50);
-  EXPECT_EQ(scene.camera->fade.far_length, 30);
-}
-
-TEST(Settings, ReplaceWhatExcludesThem) {
-  EXPECT_FALSE(with({"component.1.size.field=HSML"}).components[1].size_fixed);
-  EXPECT_EQ(with({"component.0.size.fixed=3"}).components[0].size_fixed, 3);
-  EXPECT_EQ(with({"component.1.absorption=none"}).components[1].absorption.kind,
-            Absorption::Kind::none);
-  EXPECT_EQ(with({"image.width=7"}).image.width, 7);
-}
-
-TEST(Settings, MayBringTheCamera) {
-  const Scene scene =
-      parse_scene("", "scene.toml", {"camera.position=[0,0,1]", "camera.look_at=[0,0,2]"});
-  ASSERT_TRUE(scene.camera);
-  EXPECT_TRUE(same(scene.camera->look_at, {{0, 0, 2}}));
 }
 
 TEST(Settings, ApplyToASceneThatCameFromElsewhere) {
@@ -137,116 +65,12 @@ TEST(Settings, ApplyToASceneThatCameFromElsewhere) {
   EXPECT_EQ(scene.components[1].brightness, 1);
 }
 
-FieldMap color_of(const std::string& color, const std::vector<std::string>& settings) {
-  return parse_scene("[[component]]\ncolor = { field = 'U', " + color + " }\n", "scene.toml",
-                     settings)
-      .components[0]
-      .color;
-}
-
-TEST(SettingsOfPercentiles, ReplaceARangeOfTwoLimits) {
-  const FieldMap color = color_of("min = 1, max = 2", {"component.0.color.percentiles=[20,80]"});
-  EXPECT_FALSE(color.minimum);
-  EXPECT_FALSE(color.maximum);
-  EXPECT_EQ(color.percentiles, (std::array<double, 2>{20, 80}));
-}
-
-TEST(SettingsOfPercentiles, KeepALimitBesideAMissingOne) {
-  EXPECT_EQ(color_of("min = 1", {"component.0.color.percentiles=[20,80]"}).minimum, 1);
-  const FieldMap color = color_of(
-      "min = 1, max = 2", {"component.0.color.percentiles=[20,80]", "component.0.color.max=3"});
-  EXPECT_FALSE(color.minimum);
-  EXPECT_EQ(color.maximum, 3);
-}
-
-TEST(SettingsOfARange, ReplacePercentiles) {
-  const FieldMap color =
-      color_of("percentiles = [20, 80]", {"component.0.color.min=1", "component.0.color.max=2"});
-  EXPECT_EQ(color.minimum, 1);
-  EXPECT_EQ(color.maximum, 2);
-  EXPECT_FALSE(color.percentiles);
-}
-
-TEST(SettingsOfARange, OfAMapAndItsPercentilesReplaceEachOther) {
-  const std::string limits = "[map]\nmin = 1\nmax = 2\n",
-                    percents = "[map]\npercentiles = [20, 80]\n";
-  const MapSettings by_percentiles =
-      parse_scene(limits, "scene.toml", {"map.percentiles=[20,80]"}).map;
-  EXPECT_FALSE(by_percentiles.minimum);
-  EXPECT_FALSE(by_percentiles.maximum);
-  const MapSettings by_limits = parse_scene(percents, "scene.toml", {"map.min=1", "map.max=2"}).map;
-  EXPECT_FALSE(by_limits.percentiles);
-  EXPECT_EQ(by_limits.maximum, 2);
-}
-
-TEST(SettingsOfARange, AreRefusedBesidePercentilesThatAreSetAsWell) {
-  const std::string message =
-      message_for(text, {"component.gas.color={field='U', min=1, max=2, percentiles=[20,80]}"});
-  EXPECT_THAT(message, HasSubstr("key component.0.color.percentiles: found it beside min and max"));
-}
-
-TEST(SettingsOfColors, OfTheParticlesReplaceAField) {
-  const Component component =
-      parse_scene("[[component]]\ncolor = { field = 'U', scaling = 'log', min = 1, max = 2 }\n",
-                  "scene.toml", {"component.0.color.vector=velocity"})
-          .components[0];
-  EXPECT_EQ(component.color_vector, "velocity");
-  EXPECT_EQ(component.color.field, "");
-}
-
-TEST(SettingsOfColors, OfAFieldReplaceThoseOfTheParticles) {
-  const Component component = parse_scene("[[component]]\ncolor.vector = 'Color'\n", "scene.toml",
-                                          {"component.0.color.field=density"})
-                                  .components[0];
-  EXPECT_EQ(component.color_vector, "");
-  EXPECT_EQ(component.color.field, "density");
-}
-
-TEST(SettingsOfColors, KeepAFieldThatIsLookedUpInAnAbsorptionPalette) {
-  const Component component =
-      parse_scene("[[component]]\nabsorption_palette = 'gray'\ncolor.field = 'U'\n", "scene.toml",
-                  {"component.0.color.vector=Color"})
-          .components[0];
-  EXPECT_EQ(component.color_vector, "Color");
-  EXPECT_EQ(component.color.field, "U");
-}
-
-TEST(SettingsOfColors, AreRefusedWhereTheyExcludeEachOther) {
-  EXPECT_THAT(message_for(text, {"component.gas.color={vector='Color', field='U'}"}),
-              HasSubstr("only one of the two"));
-  EXPECT_THAT(message_for(text, {"component.gas.color.vector=C", "component.gas.color.min=1"}),
-              HasSubstr("found a value without a field"));
-}
-
 // As it is chosen for a snapshot: the range was found in the data of the field.
 Scene suggested() {
   Scene scene;
   scene.components.resize(1);
   scene.components[0].color = {"internal_energy", Scaling::log, 0.5, 2e5};
   return scene;
-}
-
-FieldMap color_with(const std::vector<std::string>& settings) {
-  const Scene scene = suggested();
-  return scene_file::apply_settings_to_suggested(scene, &scene, settings).components[0].color;
-}
-
-TEST(SettingsOfASuggestedScene, LeaveTheRangeOfAnotherFieldToTheData) {
-  for (const char* setting :
-       {"component.0.color.field=density", "component.0.color={field=\"density\"}"}) {
-    const FieldMap color = color_with({setting});
-    EXPECT_EQ(color.field, "density");
-    EXPECT_EQ(color.scaling, Scaling::log);
-    EXPECT_FALSE(color.minimum);
-    EXPECT_FALSE(color.maximum);
-  }
-}
-
-TEST(SettingsOfASuggestedScene, KeepALimitThatIsGivenWithTheField) {
-  const FieldMap color =
-      color_with({"component.0.color.field=density", "component.0.color.min=1e-9"});
-  EXPECT_EQ(color.minimum, 1e-9);
-  EXPECT_FALSE(color.maximum);
 }
 
 TEST(SettingsOfASuggestedScene, KeepALimitThatWasGivenBeforeTheField) {
@@ -256,13 +80,6 @@ TEST(SettingsOfASuggestedScene, KeepALimitThatWasGivenBeforeTheField) {
       scene_file::apply_settings_to_suggested(before, &first, {"component.0.color.field=density"});
   EXPECT_EQ(after.components[0].color.minimum, 3);
   EXPECT_FALSE(after.components[0].color.maximum);
-}
-
-TEST(SettingsOfASuggestedScene, KeepTheRangeOfTheSameField) {
-  const FieldMap color =
-      color_with({"component.0.color.field=internal_energy", "component.0.color.scaling=linear"});
-  EXPECT_EQ(color.minimum, 0.5);
-  EXPECT_EQ(color.maximum, 2e5);
 }
 
 Camera camera_with(const std::vector<std::string>& settings) {
@@ -280,126 +97,71 @@ TEST(SettingsOfASuggestedScene, LeaveTheFieldOfViewToAProjectionOfWideAngles) {
   EXPECT_EQ(field_of_view_degrees(camera_with({"camera={projection=\"cube\"}"})), 90);
 }
 
-TEST(SettingsOfASuggestedScene, KeepAFieldOfViewThatIsGivenWithTheProjection) {
-  const Camera camera = camera_with({"camera.field_of_view=120", "camera.projection=fisheye"});
-  EXPECT_EQ(camera.field_of_view_degrees, 120);
-}
+class SetScene : public ::testing::TestWithParam<TextRow> {};
 
-TEST(SettingsOfASuggestedScene, KeepTheFramingWithoutPerspective) {
-  EXPECT_EQ(camera_with({"camera.projection=orthographic"}).field_of_view_degrees, 40);
-}
-
-TEST(SettingsOfASuggestedScene, TurnTheSkyWhereTheCameraLooksAlongIt) {
-  const auto sky = [](const char* position) {
-    return camera_with({position, "camera.look_at=[0, 0, 0]"}).sky;
-  };
-  EXPECT_TRUE(same(sky("camera.position=[0, 9, 0]"), {{0, 0, 1}}));
-  EXPECT_TRUE(same(sky("camera.position=[0, 9, 1]"), {{0, 1, 0}}));
-}
-
-double bloom_with(const std::vector<std::string>& settings) {
+TEST_P(SetScene, HasTheValuesOfItsSettings) {
+  std::vector<std::string> settings, expected;
+  bool is_suggested = false;
+  for (const std::string& part : GetParam().expected) {
+    is_suggested |= part == "as suggested";
+    if (part.rfind("with ", 0) == 0) settings.push_back(part.substr(5));
+    if (part.find(" is ") != std::string::npos || part.rfind("refused ", 0) == 0)
+      expected.push_back(part);
+  }
+  ASSERT_FALSE(expected.empty());
   Scene scene;
-  scene.camera.emplace();
-  scene.finish.bloom = 0.1;
-  return scene_file::apply_settings_to_suggested(scene, &scene, settings).finish.bloom;
+  const std::string refused = refusal_by<UsageError>([&] {
+    const Scene read = parse_scene(GetParam().texts.front(), "scene.toml");
+    scene = is_suggested ? scene_file::apply_settings_to_suggested(read, &read, settings)
+                         : parse_scene(GetParam().texts.front(), "scene.toml", settings);
+  });
+  for (const std::string& part : expected) {
+    const std::size_t is = part.find(" is ");
+    if (part.rfind("refused ", 0) == 0) {
+      EXPECT_THAT(refused, HasSubstr(part.substr(8)));
+    } else {
+      ASSERT_EQ(refused, "");
+      EXPECT_EQ(value_of(scene, part.substr(0, is)), part.substr(is + 4)) << part;
+    }
+  }
 }
 
-TEST(SettingsOfASuggestedScene, StopTheGlowAtTheSeamsOfPanoramasAndCubes) {
-  EXPECT_EQ(bloom_with({}), 0.1);
-  EXPECT_EQ(bloom_with({"camera.projection=fisheye"}), 0.1);
-  EXPECT_EQ(bloom_with({"camera.projection=cube"}), 0);
-  EXPECT_EQ(bloom_with({"camera.projection=equirectangular"}), 0);
-  EXPECT_THROW(bloom_with({"camera.projection=cube", "finish.bloom=0.2"}), UsageError);
-}
+INSTANTIATE_TEST_SUITE_P(Rows, SetScene,
+                         ::testing::ValuesIn(read_text_rows(source_folder() /
+                                                            "tests/scene_file/settings.rows")),
+                         [](const auto& info) { return info.param.name; });
 
-std::pair<int, int> size_of_panorama_with(std::vector<std::string> settings) {
-  settings.emplace_back("camera.projection=equirectangular");
-  Scene scene;
-  scene.camera.emplace();
-  const Scene panorama = scene_file::apply_settings_to_suggested(scene, &scene, settings);
-  return {panorama.image.width, panorama.image.height};
-}
+class RefusedSettings : public ::testing::TestWithParam<TextRow> {};
 
-TEST(SettingsOfASuggestedScene, MakeAPanoramaTwiceAsWideAsHigh) {
-  EXPECT_EQ(size_of_panorama_with({}), std::pair(1024, 512));
-  EXPECT_EQ(size_of_panorama_with({"image.width=2001"}), std::pair(2001, 1000));
-  EXPECT_EQ(size_of_panorama_with({"image.height=1000"}), std::pair(2000, 1000));
-}
-
-TEST(SettingsOfASuggestedScene, LeaveAPartOfAPanoramaAsHighAsItMayBe) {
-  EXPECT_EQ(size_of_panorama_with({"camera.field_of_view=90"}), std::pair(1024, 1024));
-  EXPECT_EQ(size_of_panorama_with({"camera.field_of_view=240"}), std::pair(1024, 768));
-}
-
-TEST(SettingsOfASuggestedScene, KeepASizeThatIsGivenForAPanorama) {
-  EXPECT_EQ(size_of_panorama_with({"image.size=[300,100]"}), std::pair(300, 100));
-  EXPECT_THROW(size_of_panorama_with({"image.size=[100,100]"}), UsageError);
-}
-
-TEST(SettingsOfASceneFile, KeepTheLimitsOfTheFile) {
-  const Scene scene = parse_scene("[[component]]\ncolor = { field = 'U', min = 1, max = 2 }\n",
-                                  "scene.toml", {"component.0.color.field=density"});
-  EXPECT_EQ(scene.components[0].color.minimum, 1);
-  EXPECT_EQ(scene.components[0].color.maximum, 2);
-}
-
-struct RefusedSetting {
-  std::string setting, message;
-};
-void PrintTo(const RefusedSetting& refused, std::ostream* out) {
-  *out << refused.setting;
-}
-class SettingsRefuse : public ::testing::TestWithParam<RefusedSetting> {};
-
-TEST_P(SettingsRefuse, InOneLineThatNamesTheSetting) {
-  const std::string message = message_for(text, {GetParam().setting});
+// A setting in each line.
+TEST_P(RefusedSettings, AreNamedInOneLine) {
+  std::vector<std::string> settings;
+  std::istringstream lines(GetParam().texts.front());
+  for (std::string line; std::getline(lines, line);)
+    settings.push_back(line);
+  const std::string message = message_for(text, settings);
   EXPECT_THAT(message, StartsWith("setting \""));
-  EXPECT_THAT(message, HasSubstr(GetParam().message));
   EXPECT_THAT(message, HasSubstr("expected"));
   EXPECT_THAT(message, Not(HasSubstr("\n")));
+  for (const std::string& part : GetParam().expected)
+    EXPECT_THAT(message, HasSubstr(part));
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    WhatIsWrong, SettingsRefuse,
-    ::testing::Values(
-        RefusedSetting{"", "found no key with a value"},
-        RefusedSetting{"tolerance", "setting \"tolerance\": found no key with a value"},
-        RefusedSetting{"=3", "found no key with a value"},
-        RefusedSetting{"tolerance=", "key tolerance: found string \"\""},
-        RefusedSetting{"tolerance=-1", "setting \"tolerance=-1\": key tolerance: found integer -1"},
-        RefusedSetting{"tolerance=low", "key tolerance: found string \"low\""},
-        RefusedSetting{"tolerance=1e999", "key tolerance: found"},
-        RefusedSetting{"tolerence=1", "did you mean tolerance?"},
-        RefusedSetting{"camera.fov=30",
-                       "key camera.fov: found an unknown key, expected one of position"},
-        RefusedSetting{"camera.feild_of_view=30", "did you mean camera.field_of_view?"},
-        RefusedSetting{"camera.feild=3", "did you mean camera.field_of_view?"},
-        RefusedSetting{"component.gas.colour.field=density",
-                       "did you mean component.0.color.field?"},
-        RefusedSetting{"component.gas.colour.feild=density",
-                       "did you mean component.0.color.field?"},
-        RefusedSetting{"component.gas.field=density", "did you mean component.0.size.field?"},
-        RefusedSetting{"imgae.sise=[1,1]", "did you mean image.size?"},
-        RefusedSetting{"brightnes=2", "did you mean component.0.brightness?"},
-        RefusedSetting{"camera.near.x=30", "key camera.near.x: found an unknown key"},
-        RefusedSetting{"camera.=30", "key camera.: found an unknown key"},
-        RefusedSetting{"camera=30", "key camera: found integer 30, expected a table"},
-        RefusedSetting{"camera.sky=[0,0,1]", "key camera.sky: found (0, 0, 1), parallel"},
-        RefusedSetting{"image.size=[640,480", "key image.size: found string \"[640,480\""},
-        RefusedSetting{"image.size=640x480x3", "key image.size: found string \"640x480x3\""},
-        RefusedSetting{"component=1", "key component: found integer 1"},
-        RefusedSetting{"component.palette=magma", "key component.palette: found no such component"},
-        RefusedSetting{"component.3.palette=magma",
-                       "expected a number from 0 to 2 or a name (gas, dark"},
-        RefusedSetting{"component.00.palette=magma", "key component.00: found no such component"},
-        RefusedSetting{"component.-1.palette=magma", "key component.-1: found no such component"},
-        RefusedSetting{"component.gass.palette=magma", "did you mean gas?"},
-        RefusedSetting{"component.gas.pallette=magma", "did you mean component.0.palette?"},
-        RefusedSetting{"component.gas=3", "key component.0: found integer 3, expected a table"},
-        RefusedSetting{"component.gas.color.min=1", "found a value without a field"},
-        RefusedSetting{"component.1.name=gas", "which another component has"},
-        RefusedSetting{"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
-        RefusedSetting{"to\nler=1", "key to ler: found an unknown key"}));
+    Rows, RefusedSettings,
+    ::testing::ValuesIn(read_text_rows(source_folder() / "tests/scene_file/refused_settings.rows")),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Settings, OfNothingOrOfSeveralLinesAreRefusedInOne) {
+  const std::map<std::string, std::string> refused = {
+      {"", "found no key with a value"},
+      {"tolerance=1\nsnapshot = 2", "key tolerance: found string"},
+      {"to\nler=1", "key to ler: found an unknown key"}};
+  for (const auto& [setting, message] : refused) {
+    EXPECT_THAT(message_for(text, {setting}), AllOf(StartsWith("setting \""), HasSubstr(message),
+                                                    HasSubstr("expected"), Not(HasSubstr("\n"))));
+  }
+}
 
 TEST(Settings, AreNamedWhereOneSideOfThePictureDoesNotFit) {
   const std::string panorama =
@@ -407,18 +169,6 @@ TEST(Settings, AreNamedWhereOneSideOfThePictureDoesNotFit) {
       "projection = \"equirectangular\"\n[[component]]\n";
   EXPECT_THAT(message_for(panorama, {"image.width=256"}),
               HasSubstr("setting \"image.width=256\": key image.width: found 256 x 1024"));
-}
-
-TEST(Settings, AreRefusedWhenGivenTwice) {
-  EXPECT_THAT(message_for(text, {"image.width=1", "image.width=2"}),
-              HasSubstr("key image.width: found it for the second time"));
-  EXPECT_THAT(message_for(text, {"component.0.palette=a", "component.gas.palette=b"}),
-              HasSubstr("for the second time"));
-}
-
-TEST(Settings, AreRefusedWhenTheyExcludeEachOther) {
-  EXPECT_THAT(message_for(text, {"component.0.absorption=1", "component.0.gray_absorption=1"}),
-              HasSubstr("found it beside component.0.absorption"));
 }
 
 TEST(Settings, FindNoComponentInASceneWithoutAny) {

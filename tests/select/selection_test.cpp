@@ -1,6 +1,7 @@
 // Which particles a component draws.
 #include "formula/selection.h"
 
+#include "load/component_rows.h"
 #include "load/particles.h"
 #include "testing.h"
 
@@ -18,121 +19,9 @@ Component selecting(const std::vector<std::string>& where) {
   return component;
 }
 
-TEST(Selection, TakesWhatFulfilsACondition) {
-  EXPECT_THAT(drawn(selecting({"internal_energy > 100"})), ElementsAre(4, 5, 6));
-  EXPECT_THAT(drawn(selecting({"internal_energy >= 100"})), ElementsAre(3, 4, 5, 6));
-  EXPECT_THAT(drawn(selecting({"mass < 2.5"})), ElementsAre(1, 2));
-  EXPECT_THAT(drawn(selecting({"mass<=3"})), ElementsAre(1, 2, 3));
-  EXPECT_THAT(drawn(selecting({"U == 1e3"})), ElementsAre(4));
-  EXPECT_THAT(drawn(selecting({"mass != 2"})), ElementsAre(1, 3, 4, 5, 6));
-}
-
-TEST(Selection, TakesWhatFulfilsAllOfSeveralAndAnyWithOr) {
-  EXPECT_THAT(drawn(selecting({"mass > 1", "mass < 4"})), ElementsAre(2, 3));
-  EXPECT_THAT(drawn(selecting({"mass < 2 or mass > 5"})), ElementsAre(1, 6));
-  EXPECT_THAT(drawn(selecting({"mass < 3 or mass > 4", "internal_energy != 1"})),
-              ElementsAre(2, 5, 6));
-}
-
-TEST(Selection, JoinsComparisonsByAndMoreCloselyThanByOr) {
-  EXPECT_THAT(drawn(selecting({"mass > 1 and mass < 4"})), ElementsAre(2, 3));
-  EXPECT_THAT(drawn(selecting({"mass < 2 or mass > 3 and mass < 6"})), ElementsAre(1, 4, 5));
-  EXPECT_THAT(drawn(selecting({"mass > 3 and mass < 6 or mass < 2"})), ElementsAre(1, 4, 5));
-}
-
-TEST(Selection, ComparesDerivedFieldsAndLengthsOfVectorsToo) {
-  EXPECT_THAT(drawn(selecting({"position_x > 3.5"})), ElementsAre(5, 6));
-  EXPECT_THAT(drawn(selecting({"velocity > 7"})), ElementsAre(5, 6));
-  Component component = selecting({"radius < 1.5"});
-  component.center = {{5, 0, 0}};
-  EXPECT_THAT(drawn(component), ElementsAre(5, 6));
-}
-
-TEST(Selection, LeavesOutValuesThatAreNoNumbersWhateverIsAsked) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", std::vector<float>(9, 1), 3);
-  snapshot.add(0, "smoothing_length", {1, 1, 1});
-  snapshot.add(0, "mass", {1, 2, 3});
-  snapshot.add(0, "density", {5, std::numeric_limits<float>::quiet_NaN(), 7});
-  EXPECT_THAT(drawn(selecting({"density != 5"}), snapshot), ElementsAre(3));
-  EXPECT_THAT(drawn(selecting({"density < 6 or density >= 6"}), snapshot), ElementsAre(1, 3));
-}
-
-TEST(Selection, TakesABoxWithItsFaces) {
-  Component component = gas();
-  component.select.box_minimum = Vec3{{1, -1, 0}};
-  component.select.box_maximum = Vec3{{3, 1, 0}};
-  EXPECT_THAT(drawn(component), ElementsAre(2, 3, 4));
-}
-
-TEST(Selection, TakesASphereWithItsSurface) {
-  Component component = gas();
-  component.select.sphere_center = Vec3{{2, 0, 0}};
-  component.select.sphere_radius = 1;
-  EXPECT_THAT(drawn(component), ElementsAre(2, 3, 4));
-}
-
-TEST(Selection, TakesASphereAcrossTheFacesOfABoxThatIsWrapped) {
-  NumberedSnapshot snapshot = gas_row();  // at x = 0, 1, ... 5
-  Component component = gas();
-  component.select.sphere_center = Vec3{{0, 0, 0}};
-  component.select.sphere_radius = 1;
-  Scene scene = scene_of({component});
-  scene.periodic.box = 6;
-  EXPECT_THAT(values(load(scene, snapshot).components[0].particles.weight), ElementsAre(1, 2));
-  scene.periodic.wrap = true;
-  EXPECT_THAT(values(load(scene, snapshot).components[0].particles.weight), ElementsAre(1, 2, 6));
-  std::swap(scene.components[0].select, scene.components[0].exclude);
-  EXPECT_THAT(values(load(scene, snapshot).components[0].particles.weight), ElementsAre(3, 4, 5));
-}
-
-TEST(Selection, OfAPlacedComponentIsThatOfItsSnapshotWithoutABox) {
-  NumberedSnapshot snapshot = gas_row();
-  Component component = gas();
-  component.select.sphere_center = Vec3{{0, 0, 0}};
-  component.select.sphere_radius = 1;
-  component.placement.origin = Vec3{{1, 1, 1}};
-  Scene scene = scene_of({component});
-  scene.periodic.box = 6;
-  scene.periodic.wrap = true;
-  EXPECT_THAT(values(load(scene, snapshot).components[0].particles.weight), ElementsAre(1, 2));
-}
-
-TEST(Selection, KnowsPlacesInDoublePrecision) {
-  NumberedSnapshot snapshot = gas_row();
-  snapshot.set_origin({{1e9, 0, 0}});  // where single precision has steps of 64
-  Component component = gas();
-  component.select.sphere_center = Vec3{{1e9 + 2, 0, 0}};
-  component.select.sphere_radius = 0.5;
-  EXPECT_THAT(drawn(component, snapshot), ElementsAre(3));
-}
-
-TEST(Selection, LeavesOutWhatFulfilsAllThatExcludeGives) {
-  Component component = gas();
-  component.exclude.where = {"mass > 2"};
-  component.exclude.sphere_center = Vec3{{5, 0, 0}};
-  component.exclude.sphere_radius = 1.5;
-  EXPECT_THAT(drawn(component), ElementsAre(1, 2, 3, 4));
-  component.select.where = {"internal_energy > 1"};
-  EXPECT_THAT(drawn(component), ElementsAre(2, 3, 4));
-}
-
-TEST(Selection, WithTheSameConditionsExcludedIsTheOtherHalf) {
-  Component rest = gas();
-  rest.exclude.where = {"mass > 1", "mass < 4"};
-  EXPECT_THAT(drawn(rest), ElementsAre(1, 4, 5, 6));
-}
-
-TEST(Selection, GathersEveryColumnAlike) {
-  Component component = selecting({"mass == 2 or mass == 5"});
-  component.color.field = "internal_energy";
-  component.color_vector = "";
-  const Particles particles = load(component, gas_row()).particles;
-  EXPECT_EQ(particles.count, 2u);
-  EXPECT_THAT(values(particles.position), ElementsAre(1, 0, 0, 4, 0, 0));
-  EXPECT_THAT(values(particles.smoothing_length), ElementsAre(0.25f, 0.625f));
-  EXPECT_THAT(values(particles.color), ElementsAre(10, 10000));
-}
+INSTANTIATE_TEST_SUITE_P(Selection, ComponentKeys,
+                         ::testing::ValuesIn(component_rows("select/selection.rows")),
+                         name_of_component_row);
 
 TEST(Selection, OfSeveralTypesTakesFromEach) {
   NumberedSnapshot snapshot = gas_row();
@@ -142,15 +31,6 @@ TEST(Selection, OfSeveralTypesTakesFromEach) {
   Component component = selecting({"mass > 5"});
   component.types = {4, 0};
   EXPECT_THAT(drawn(component, snapshot), ElementsAre(20, 6));
-}
-
-TEST(Selection, TakesRangesFromTheSelectedParticlesAlone) {
-  Component component = selecting({"internal_energy > 500"});
-  component.color = {"internal_energy", Scaling::log, {}, {}};
-  component.color.percentiles = {0, 100};
-  const ScalarMap map = load(component, gas_row()).color;
-  EXPECT_NEAR(map.minimum, 3, 1e-6);
-  EXPECT_NEAR(map.maximum, 5, 1e-6);
 }
 
 TEST(Selection, FindsSizesAmongAllParticlesNotOnlyTheSelected) {
@@ -167,13 +47,6 @@ TEST(Selection, FindsSizesAmongAllParticlesNotOnlyTheSelected) {
   ASSERT_EQ(particles.count, 1u);
   // On a unit grid: see LoadFrameSize.
   EXPECT_NEAR(particles.smoothing_length[0], std::sqrt(6.0f), 1e-6);
-}
-
-TEST(Selection, OfNothingIsToldAndDrawsNothing) {
-  const Component component = selecting({"mass > 100"});
-  EXPECT_EQ(load(component, gas_row()).particles.count, 0u);
-  EXPECT_THAT(notes_of(component, gas_row()),
-              ElementsAre(HasSubstr("component gas: select and exclude leave none of its 6")));
 }
 
 TEST(Selection, IsMadeOnceForAllFrames) {
@@ -194,13 +67,6 @@ TEST(Selection, ThatChangesIsMadeAnew) {
   EXPECT_THAT(drawn(component, snapshot), ElementsAre(1, 2, 3));
 }
 
-TEST(Selection, NamesAFieldThatIsNotThereAndTheDerivedOnes) {
-  const std::string message = refusal(selecting({"internal_enrgy > 1"}), gas_row());
-  EXPECT_THAT(message, HasSubstr("component gas: select.where is \"internal_enrgy\""));
-  EXPECT_THAT(message, HasSubstr("derived, density, temperature, speed, radius"));
-  EXPECT_THAT(message, HasSubstr("did you mean internal_energy?"));
-}
-
 TEST(Components, AreRefusedBeforeAnythingIsRead) {
   const NumberedSnapshot snapshot = gas_row();
   std::vector<Component> wrong(7, gas());
@@ -216,20 +82,6 @@ TEST(Components, AreRefusedBeforeAnythingIsRead) {
     EXPECT_THROW(load(scene_of({gas(), component}), snapshot), UsageError);
     EXPECT_THAT(snapshot.fields_read(), IsEmpty());
   }
-}
-
-TEST(Selection, ComparesIdsExactly) {
-  EXPECT_THAT(drawn(selecting({"id > 1152921504606846977"})), ElementsAre(3, 4, 5, 6));
-  EXPECT_THAT(drawn(selecting({"ParticleIDs <= 1152921504606846977"})), ElementsAre(1, 2));
-  EXPECT_THAT(drawn(selecting({"id == 1152921504606846979"})), ElementsAre(4));
-  EXPECT_THAT(drawn(selecting({"id != 1152921504606846979 and mass > 2"})), ElementsAre(3, 5, 6));
-  EXPECT_THAT(drawn(selecting({"id >= 1e9"})), ElementsAre(1, 2, 3, 4, 5, 6));
-}
-
-TEST(Selection, RefusesToCompareIdsWithWhatIsNone) {
-  for (const char* text : {"id > -1", "id > 0.5", "id < 1e19", "id < 18446744073709551616"})
-    EXPECT_THAT(refusal(selecting({text}), gas_row()), HasSubstr("expected a whole number"))
-        << text;
 }
 
 // Of six particles of type 4 those of mass 2 and 5 are wind.
@@ -264,30 +116,11 @@ TEST(Wind, IsDrawnByAConditionOnItsTime) {
               ElementsAre(1, 2, 3, 4, 5, 6));
 }
 
-Component of_halo(int number) {
-  Component component = gas();
-  component.select.halo = number;
-  return component;
-}
-
-TEST(SelectionByHalo, TakesThoseWhoseGroupIdItIs) {
-  NumberedSnapshot snapshot = gas_row();
-  snapshot.add(0, "halo_id", {12, -1, 12, 3, 4, 12});
-  EXPECT_THAT(drawn(of_halo(12), snapshot), ElementsAre(1, 3, 6));
-  Component rest = of_halo(12);
-  std::swap(rest.select, rest.exclude);
-  EXPECT_THAT(drawn(rest, snapshot), ElementsAre(2, 4, 5));
-}
-
-TEST(SelectionByHalo, RefusesASnapshotThatDoesNotKnowOfHaloes) {
-  EXPECT_THAT(refusal(of_halo(12), gas_row()),
-              AllOf(HasSubstr("select.halo 12"), HasSubstr("expected select.catalog")));
-}
-
-TEST(SelectionByHalo, NamesACatalogThatIsNotThere) {
-  Component component = of_halo(12);
-  component.select.halo_catalog = "no/such/catalog.hdf5";
-  EXPECT_THAT(refusal(component, gas_row()), HasSubstr("no/such/catalog.hdf5"));
+std::string numpy_header(const std::string& type, int count) {
+  std::string header = "{'descr': " + type + ", 'fortran_order': False, 'shape': (" +
+                       std::to_string(count) + ",), }";
+  header.resize(117, ' ');
+  return std::string("\x93NUMPY\1\0v\0", 10) + header + "\n";
 }
 
 class SelectionByIds : public ::testing::Test {
@@ -313,11 +146,7 @@ TEST_F(SelectionByIds, AllowsCommentsBlankLinesAndAnyOrder) {
 }
 
 TEST_F(SelectionByIds, TakesAnArrayOfNumpy) {
-  std::string header = "{'descr': '<u8', 'fortran_order': False, 'shape': (2,), }";
-  header.resize(117, ' ');
-  std::string bytes = "\x93NUMPY";
-  bytes += {1, 0, 118, 0};
-  bytes += header + "\n";
+  std::string bytes = numpy_header("'<u8'", 2);
   for (const std::uint64_t id : {(1ull << 60) + 4, (1ull << 60) + 1}) {
     for (int byte = 0; byte < 8; ++byte)
       bytes += static_cast<char>(id >> (8 * byte) & 255);
@@ -326,11 +155,7 @@ TEST_F(SelectionByIds, TakesAnArrayOfNumpy) {
 }
 
 TEST_F(SelectionByIds, RefusesMasks) {
-  std::string header = "{'descr': '|b1', 'fortran_order': False, 'shape': (2,), }";
-  header.resize(117, ' ');
-  std::string bytes = "\x93NUMPY";
-  bytes += {1, 0, 118, 0};
-  bytes += header + "\n";
+  std::string bytes = numpy_header("'|b1'", 2);
   bytes += {0, 1};
   EXPECT_THAT(refusal(listing(bytes), gas_row()), HasSubstr("save ids[mask]"));
   EXPECT_THAT(refusal(listing("0\n1\n1\n0\n1\n"), gas_row()),
@@ -346,12 +171,9 @@ TEST_F(SelectionByIds, TakesWholeNumbersAsSavetxtWritesThem) {
 }
 
 TEST_F(SelectionByIds, RefusesAnArrayOfOtherNumbers) {
-  std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (1,), }";
-  header.resize(117, ' ');
-  std::string bytes = "\x93NUMPY";
-  bytes += {1, 0, 118, 0};
   const double half = 0.5;
-  bytes += header + "\n" + std::string(reinterpret_cast<const char*>(&half), sizeof half);
+  const std::string bytes =
+      numpy_header("'<f8'", 1) + std::string(reinterpret_cast<const char*>(&half), sizeof half);
   EXPECT_THAT(refusal(listing(bytes), gas_row()), HasSubstr("not an array of whole numbers"));
 }
 
@@ -392,34 +214,6 @@ TEST(Conditions, MayHaveBlanksAndNamesWithThem) {
       << "a tab is no blank around or";
 }
 
-TEST(Selection, TakesFormulasAsConditions) {
-  EXPECT_THAT(drawn(selecting({"mass > 1 && mass < 4"})), ElementsAre(2, 3));
-  EXPECT_THAT(drawn(selecting({"mass < 2 || mass > 3 && mass < 6"})), ElementsAre(1, 4, 5));
-  EXPECT_THAT(drawn(selecting({"not (mass > 1 and mass < 4)"})), ElementsAre(1, 4, 5, 6));
-  EXPECT_THAT(drawn(selecting({"mass^2 - 1 > 2*4"})), ElementsAre(4, 5, 6));
-  EXPECT_THAT(drawn(selecting({"x + mass >= 9"})), ElementsAre(5, 6));
-  EXPECT_THAT(drawn(selecting({"sqrt(mass*mass) == mass", "mass > 5"})), ElementsAre(6));
-}
-
-TEST(Selection, ComparesIdsExactlyInFormulas) {
-  EXPECT_THAT(drawn(selecting({"mass > 1 && ParticleIDs <= 1152921504606846978"})),
-              ElementsAre(2, 3));
-  EXPECT_THAT(drawn(selecting({"1152921504606846979 == id"})), ElementsAre(4));
-  EXPECT_THAT(drawn(selecting({"!(id == 1152921504606846979) && mass > 2"})), ElementsAre(3, 5, 6));
-  EXPECT_THAT(refusal(selecting({"id / 2 > mass"}), gas_row()), HasSubstr("at most 2^53"));
-}
-
-TEST(Selection, LeavesOutValuesThatAreNoNumbersFromNegationsToo) {
-  MemorySnapshot snapshot;
-  snapshot.add(0, "position", std::vector<float>(9, 1), 3);
-  snapshot.add(0, "smoothing_length", {1, 1, 1});
-  snapshot.add(0, "mass", {1, 2, 3});
-  snapshot.add(0, "density", {5, std::numeric_limits<float>::quiet_NaN(), 7});
-  EXPECT_THAT(drawn(selecting({"!(density > 6)"}), snapshot), ElementsAre(1));
-  EXPECT_THAT(drawn(selecting({"!(density == 5)"}), snapshot), ElementsAre(3));
-  EXPECT_THAT(drawn(selecting({"2*density != 10"}), snapshot), ElementsAre(3));
-}
-
 TEST(Selection, TakesColorsFromFormulas) {
   Component component = gas();
   component.color.field = "log10(mass * internal_energy) + x";
@@ -442,11 +236,6 @@ TEST(Selection, ReadsOnlyWhatFormulasName) {
   component.color.field = "2 * density";
   load(component, snapshot);
   EXPECT_THAT(snapshot.fields_read(), Not(Contains("internal_energy")));
-}
-
-TEST(Selection, NamesTheNearestFieldOfOneThatAFormulaLacks) {
-  EXPECT_THAT(refusal(selecting({"2*internal_energie > 3"}), gas_row()),
-              AllOf(HasSubstr("internal_energie"), HasSubstr("did you mean internal_energy?")));
 }
 
 }  // namespace

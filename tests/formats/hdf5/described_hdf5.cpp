@@ -96,8 +96,20 @@ void write_part(const Hdf5Output& file, const std::string& part) {
 
 void write_described_hdf5(const std::filesystem::path& path, const std::string& description) {
   const Hdf5Output file = create_hdf5(path);
-  for (const std::string& part : parts_between_bars(description))
-    write_part(file, part);
+  std::istringstream lines(description);
+  for (std::string line; std::getline(lines, line);) {
+    for (const std::string& part : parts_between_bars(line))
+      write_part(file, part);
+  }
+}
+
+TEST_P(DescribedHdf5, IsReadOrRefused) {
+  const TemporaryFolder folder;
+  for (const std::string& content : GetParam().contents) {
+    SCOPED_TRACE(content);
+    write_described_hdf5(folder / "snap.hdf5", content);
+    expect_snapshot(folder / "snap.hdf5", GetParam().options, GetParam().expected);
+  }
 }
 
 }  // namespace splotchcl::test

@@ -1,10 +1,6 @@
-#include <hdf5.h>
-
-#include "formats/hdf5/hdf5_file.h"
+#include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
-#include "formats/snapshot_checks.h"
-#include "formats/snapshot_writer.h"
-#include "splotchcl/snapshot_file.h"
+#include "formats/snapshot_rows.h"
 
 namespace splotchcl::test {
 namespace {
@@ -38,61 +34,47 @@ TEST_P(GadgetHdf5Styles, HasTheColumnsOfTheSameStateInFormat2) {
   EXPECT_EQ(hdf5->info().hubble_parameter, binary->info().hubble_parameter);
 }
 
+class GadgetHdf5 : public ::testing::Test {
+ protected:
+  void write(const TestSnapshot& snapshot, const Hdf5Style& style = {}) const {
+    write_hdf5(path_, snapshot, style);
+  }
+  Hdf5Handle<H5Fclose> changed(const std::filesystem::path& path) const {
+    return Hdf5Handle<H5Fclose>(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+  }
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "snap.hdf5";
+};
+
 // Its files are opened again for each column.
-TEST(GadgetHdf5, WhoseFileIsAnotherThanWhenItWasOpenedIsAnError) {
-  const TemporaryFolder folder;
-  write_hdf5(folder / "snap.hdf5", small_snapshot());
-  const auto held = open_snapshot(folder / "snap.hdf5");
-  write_hdf5(folder / "other.hdf5", small_snapshot());
-  std::filesystem::rename(folder / "other.hdf5", folder / "snap.hdf5");
+TEST_F(GadgetHdf5, WhoseFileIsAnotherThanWhenItWasOpenedIsAnError) {
+  write(small_snapshot());
+  const auto held = open_snapshot(path_);
+  write_hdf5(folder_ / "other.hdf5", small_snapshot());
+  std::filesystem::rename(folder_ / "other.hdf5", path_);
   EXPECT_THAT([&] { held->read(0, "position"); },
               ThrowsMessage<DataError>(HasSubstr("since it was opened; open it again")));
-  EXPECT_NO_THROW(open_snapshot(folder / "snap.hdf5")->read(0, "position"));
+  EXPECT_NO_THROW(open_snapshot(path_)->read(0, "position"));
 }
 
-TEST(GadgetHdf5, StatesTheUnitsThatTheFileStates) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, StatesTheUnitsThatTheFileStates) {
+  write(small_snapshot());
+  expect_snapshot(path_, {}, "unit position ");
   Hdf5Style style;
   style.has_parameters_group = true;
-  write_hdf5(folder / "with.hdf5", small_snapshot(), style);
-  write_hdf5(folder / "without.hdf5", small_snapshot());
-  const auto position_unit = [&](const std::string& name) {
-    const auto snapshot = open_snapshot(folder / name);
-    for (const FieldInfo& field : snapshot->info().types[0].fields) {
-      if (field.name == "position") return field.unit;
-    }
-    return std::string("no positions");
-  };
-  EXPECT_EQ(position_unit("with.hdf5"), "kpc");
-  EXPECT_EQ(position_unit("without.hdf5"), "");
+  write(small_snapshot(), style);
+  expect_snapshot(path_, {}, "unit position kpc");
 }
 
-TEST(GadgetHdf5, DoublePositionsKeepTheirDigits) {
-  const TemporaryFolder folder;
-  TestSnapshot written = small_snapshot();
-  written.set_kind("POS", ValueKind::float64);
-  for (auto& of_type : written.block("POS").values) {
-    for (double& x : of_type)
-      x += 1e6 + 1e-7;
-  }
+TEST_F(GadgetHdf5, DoublePositionsKeepTheirDigits) {
   Hdf5Style compressed;
   compressed.is_compressed = true;
-  write_hdf5(folder / "snap.hdf5", written, compressed);
-  const auto snapshot = open_snapshot(folder / "snap.hdf5");
-  const Vec3 origin = snapshot->position_origin();
-  for (const int type : {0, 1, 4}) {
-    const auto& expected = written.block("POS").values[static_cast<std::size_t>(type)];
-    const Column positions = snapshot->read(type, "position");
-    ASSERT_EQ(positions.size(), expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      // Offsets from the median are below 64, where floats lie 2^-18 apart.
-      EXPECT_NEAR(origin.a[i % 3] + static_cast<double>(positions[i]), expected[i], 0x1p-18);
-    }
-  }
+  const TestSnapshot written = of_doubles_far_away(small_snapshot());
+  write(written, compressed);
+  expect_positions_of(*open_snapshot(path_), written);
 }
 
-TEST(GadgetHdf5, DoublesOfTheSameStateAreTheSameInFormat2) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, DoublesOfTheSameStateAreTheSameInFormat2) {
   TestSnapshot written = small_snapshot();
   for (const char* label : {"POS", "VEL", "MASS", "U"}) {
     written.set_kind(label, ValueKind::float64);
@@ -101,16 +83,15 @@ TEST(GadgetHdf5, DoublesOfTheSameStateAreTheSameInFormat2) {
         x *= 1.0000001;
     }
   }
-  write_hdf5(folder / "snap.hdf5", written);
-  write_gadget(folder / "snap", written, 2);
-  const auto hdf5 = open_snapshot(folder / "snap.hdf5");
-  const auto binary = open_snapshot(folder / "snap");
+  write(written);
+  write_gadget(folder_ / "snap", written, 2);
+  const auto hdf5 = open_snapshot(path_);
+  const auto binary = open_snapshot(folder_ / "snap");
   EXPECT_EQ(hdf5->position_origin().a[0], binary->position_origin().a[0]);
   expect_same_columns(*hdf5, *binary);
 }
 
-TEST(GadgetHdf5, DatasetsLongerThanAPieceAreReadWhole) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, DatasetsLongerThanAPieceAreReadWhole) {
   TestSnapshot written;
   written.counts[1] = 2500000;  // a piece has 2^20 rows
   written.table_masses[1] = 1;
@@ -118,8 +99,8 @@ TEST(GadgetHdf5, DatasetsLongerThanAPieceAreReadWhole) {
   for (double& x : written.block("POS").values[1])
     x = static_cast<float>(x);
   written.set_kind("POS", ValueKind::float64);
-  write_hdf5(folder / "snap.hdf5", written);
-  const auto snapshot = open_snapshot(folder / "snap.hdf5");
+  write(written);
+  const auto snapshot = open_snapshot(path_);
   const Column positions = snapshot->read(1, "position");
   const Vec3 origin = snapshot->position_origin();
   const auto& expected = written.block("POS").values[1];
@@ -129,73 +110,62 @@ TEST(GadgetHdf5, DatasetsLongerThanAPieceAreReadWhole) {
   }
 }
 
-TEST(GadgetHdf5, TruncatedFilesAreRefusedWithoutPrinting) {
-  const TemporaryFolder folder;
-  write_hdf5(folder / "whole.hdf5", small_snapshot());
-  const std::string whole = read_text(folder / "whole.hdf5");
+TEST_F(GadgetHdf5, TruncatedFilesAreRefusedWithoutPrinting) {
+  write_hdf5(folder_ / "whole.hdf5", small_snapshot());
+  const std::string whole = read_text(folder_ / "whole.hdf5");
   ::testing::internal::CaptureStderr();
   for (std::size_t size = 0; size < whole.size(); size += size < 200 ? 1 : 97) {
-    write_bytes(folder / "snap.hdf5", whole.substr(0, size));
-    EXPECT_NE(refusal(folder / "snap.hdf5"), "") << "cut to " << size << " bytes";
+    write_bytes(path_, whole.substr(0, size));
+    EXPECT_NE(refusal(path_), "") << "cut to " << size << " bytes";
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(GadgetHdf5, RowsCountWhereTheHeaderClaimsOtherNumbersOfParticles) {
-  const TemporaryFolder folder;
-  write_hdf5(folder / "right.hdf5", small_snapshot());
+TEST_F(GadgetHdf5, RowsCountWhereTheHeaderClaimsOtherNumbersOfParticles) {
+  write_hdf5(folder_ / "right.hdf5", small_snapshot());
   for (const int change : {-1, 1, 1000000, -37}) {
     TestSnapshot snapshot = small_snapshot();
     snapshot.counts[0] = static_cast<std::uint32_t>(37 + change);
-    write_hdf5(folder / "snap.hdf5", snapshot);
-    const auto opened = open_snapshot(folder / "snap.hdf5");
-    expect_same_columns(*opened, *open_snapshot(folder / "right.hdf5"));
+    write(snapshot);
+    const auto opened = open_snapshot(path_);
+    expect_same_columns(*opened, *open_snapshot(folder_ / "right.hdf5"));
     EXPECT_THAT(opened->info().notes, Contains(HasSubstr("has 37 rows: these count"))) << change;
   }
 }
 
-TEST(GadgetHdf5, ATypeWithoutPositionsOrGroupIsLeftOut) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, ATypeWithoutPositionsOrGroupIsLeftOut) {
   TestSnapshot snapshot = small_snapshot();
   snapshot.block("POS").values[4].clear();
   snapshot.counts[3] = 5;
-  write_hdf5(folder / "snap.hdf5", snapshot);
-  const auto opened = open_snapshot(folder / "snap.hdf5");
-  EXPECT_EQ(opened->info().find_type(4), nullptr);
-  EXPECT_THAT(opened->info().notes,
-              AllOf(Contains(HasSubstr("11 particles, but it has no positions")),
-                    Contains(HasSubstr("5 particles, but there is no such group"))));
+  write(snapshot);
+  expect_snapshot(path_, {},
+                  "types 2 | note 11 particles, but it has no positions | "
+                  "note 5 particles, but there is no such group");
+  EXPECT_EQ(open_snapshot(path_)->info().find_type(4), nullptr);
 }
 
-TEST(GadgetHdf5, OfTypesThatAreAllLeftOutIsRefused) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, OfTypesThatAreAllLeftOutIsRefused) {
   TestSnapshot snapshot = small_snapshot();
   for (std::vector<double>& positions : snapshot.block("POS").values)
     positions.clear();
-  write_hdf5(folder / "snap.hdf5", snapshot);
-  EXPECT_THAT(refusal(folder / "snap.hdf5"),
-              AllOf(HasSubstr("no positions"), HasSubstr("37 particles of PartType0")));
+  write(snapshot);
+  expect_snapshot(path_, {}, "refused no positions | refused 37 particles of PartType0");
 }
 
-TEST(GadgetHdf5, FieldsOfManyWidthsAreLeftOutWithANote) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, FieldsOfManyWidthsAreLeftOutWithANote) {
   TestSnapshot snapshot = small_snapshot();
   add_block(snapshot, "Elements", 1U, 65);
-  write_hdf5(folder / "snap.hdf5", snapshot);
-  const auto opened = open_snapshot(folder / "snap.hdf5");
-  EXPECT_FALSE(has_field(*opened, 0, "Elements"));
-  EXPECT_THAT(opened->info().notes, Contains(HasSubstr("left out of PartType0")));
+  write(snapshot);
+  expect_snapshot(path_, {}, "no Elements/0 | note left out of PartType0");
 }
 
-TEST(GadgetHdf5, ADatasetThatWasNeverWrittenIsRefusedWithoutClaimingItsMemory) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, ADatasetThatWasNeverWrittenIsRefusedWithoutClaimingItsMemory) {
   TestSnapshot snapshot;
   snapshot.counts[1] = 4000000000U;
   snapshot.table_masses[1] = 1;
-  write_hdf5(folder / "snap.hdf5", snapshot);
+  write(snapshot);
   {  // 4 billion particles that exist as a shape only
-    const Hdf5Handle<H5Fclose> file(
-        H5Fopen((folder / "snap.hdf5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+    const Hdf5Handle<H5Fclose> file = changed(path_);
     const Hdf5Handle<H5Gclose> group(
         H5Gcreate2(file.id(), "PartType1", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     const hsize_t shape[2] = {4000000000U, 3}, chunk[2] = {65536, 3};
@@ -206,31 +176,25 @@ TEST(GadgetHdf5, ADatasetThatWasNeverWrittenIsRefusedWithoutClaimingItsMemory) {
                                                   space.id(), H5P_DEFAULT, properties.id(),
                                                   H5P_DEFAULT));
   }
-  const auto opened = open_snapshot(folder / "snap.hdf5");
-  EXPECT_THAT([&] { opened->read(1, "position"); },
-              ThrowsMessage<DataError>(HasSubstr("not completely written")));
+  expect_snapshot(path_, {}, "unreadable not completely written");
 }
 
-TEST(GadgetHdf5, PositionsThatEachFileOfASetNamesDifferentlyAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, PositionsThatEachFileOfASetNamesDifferentlyAreRefused) {
   const auto members = split(small_snapshot(), 2);
-  write_hdf5(folder / "snap.0.hdf5", members[0]);
-  write_hdf5(folder / "snap.1.hdf5", members[1]);
+  write_hdf5(folder_ / "snap.0.hdf5", members[0]);
+  write_hdf5(folder_ / "snap.1.hdf5", members[1]);
   {
-    const Hdf5Handle<H5Fclose> file(
-        H5Fopen((folder / "snap.1.hdf5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+    const Hdf5Handle<H5Fclose> file = changed(folder_ / "snap.1.hdf5");
     H5Lmove(file.id(), "PartType0/Coordinates", file.id(), "PartType0/Positions", H5P_DEFAULT,
             H5P_DEFAULT);
   }
-  EXPECT_THAT(refusal(folder / "snap.0.hdf5"), HasSubstr("type 0 have no positions"));
+  EXPECT_THAT(refusal(folder_ / "snap.0.hdf5"), HasSubstr("type 0 have no positions"));
 }
 
-TEST(GadgetHdf5, SwiftWithoutItsKernelIsNoted) {
-  const TemporaryFolder folder;
-  write_hdf5(folder / "snap.hdf5", small_snapshot());
+TEST_F(GadgetHdf5, SwiftWithoutItsKernelIsNoted) {
+  write(small_snapshot());
   {
-    const Hdf5Handle<H5Fclose> file(
-        H5Fopen((folder / "snap.hdf5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT));
+    const Hdf5Handle<H5Fclose> file = changed(path_);
     const Hdf5Handle<H5Tclose> text(H5Tcopy(H5T_C_S1));
     H5Tset_size(text.id(), 5);
     const Hdf5Handle<H5Sclose> one(H5Screate(H5S_SCALAR));
@@ -238,7 +202,7 @@ TEST(GadgetHdf5, SwiftWithoutItsKernelIsNoted) {
         file.id(), "Header", "Code", text.id(), one.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     H5Awrite(code.id(), text.id(), "SWIFT");
   }
-  const auto snapshot = open_snapshot(folder / "snap.hdf5");
+  const auto snapshot = open_snapshot(path_);
   EXPECT_EQ(snapshot->info().format, "SWIFT HDF5");
   EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("Kernel gamma")));
   EXPECT_FLOAT_EQ(snapshot->read(0, "smoothing_length")[0],
@@ -261,33 +225,22 @@ void write_virtual(const std::filesystem::path& path, const std::filesystem::pat
                                                 H5P_DEFAULT));
 }
 
-TEST(GadgetHdf5, VirtualDatasetsAreReadFromTheirFiles) {
-  const TemporaryFolder folder;
+TEST_F(GadgetHdf5, VirtualDatasetsAreReadFromTheirFiles) {
   TestSnapshot snapshot = small_snapshot();
-  write_hdf5(folder / "part", snapshot);
-  write_virtual(folder / "snap.hdf5", folder / "part", snapshot);
-  EXPECT_EQ(values_of(open_snapshot(folder / "snap.hdf5")->read(0, "position")),
+  write_hdf5(folder_ / "part", snapshot);
+  write_virtual(path_, folder_ / "part", snapshot);
+  EXPECT_EQ(values_of(open_snapshot(path_)->read(0, "position")),
             as_floats(snapshot.block("POS").values[0]));
 }
 
-TEST(GadgetHdf5, AVirtualDatasetWithoutItsFileIsRefused) {
-  const TemporaryFolder folder;
-  write_virtual(folder / "snap.hdf5", folder / "part", small_snapshot());
-  const auto snapshot = open_snapshot(folder / "snap.hdf5");
-  EXPECT_THAT([&] { snapshot->read(0, "position"); },
-              ThrowsMessage<DataError>(HasSubstr("part, which is missing")));
+TEST_F(GadgetHdf5, AVirtualDatasetWithoutItsFileIsRefused) {
+  write_virtual(path_, folder_ / "part", small_snapshot());
+  expect_snapshot(path_, {}, "unreadable part, which is missing");
 }
 
-TEST(GadgetHdf5, AnHdf5FileOfAnotherKindIsRefusedWithItsGroups) {
-  const TemporaryFolder folder;
-  {
-    const Hdf5Handle<H5Fclose> file(
-        H5Fcreate((folder / "data.h5").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
-    const Hdf5Handle<H5Gclose> group(
-        H5Gcreate2(file.id(), "spectra", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  }
-  EXPECT_THAT(refusal(folder / "data.h5"),
-              AllOf(HasSubstr("NumPart_ThisFile"), HasSubstr("spectra")));
+TEST_F(GadgetHdf5, AnHdf5FileOfAnotherKindIsRefusedWithItsGroups) {
+  make_group(create_hdf5(path_), "spectra");
+  expect_snapshot(path_, {}, "refused NumPart_ThisFile | refused spectra");
 }
 
 }  // namespace

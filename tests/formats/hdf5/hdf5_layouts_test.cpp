@@ -1,8 +1,5 @@
 #include "formats/hdf5/hdf5_values.h"
-#include "formats/snapshot_checks.h"
-#include "snapshot/field_names.h"
-#include "splotchcl/snapshot_file.h"
-#include "testing.h"
+#include "formats/snapshot_rows.h"
 
 namespace splotchcl::test {
 namespace {
@@ -39,10 +36,9 @@ TEST_F(Hdf5Layout, ArraysAndRecordsInRecordsAreRead) {
                                                   H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
     H5Dwrite(dataset.id(), record.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, records.data());
   }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_THAT(values_of(snapshot->read(0, "position")), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_THAT(snapshot->read_integers(0, "more.id"), ElementsAre(18446744073709551615U, 7U));
-  EXPECT_THAT(snapshot->info().notes, Contains(HasSubstr("left out of /table")));
+  expect_snapshot(path_, {}, "position 1 2 3 4 5 6 | note left out of /table");
+  EXPECT_THAT(open_snapshot(path_)->read_integers(0, "more.id"),
+              ElementsAre(18446744073709551615U, 7U));
 }
 
 TEST_F(Hdf5Layout, UnitsThatAstropyKeepsBesideATableAreRead) {
@@ -55,9 +51,7 @@ TEST_F(Hdf5Layout, UnitsThatAstropyKeepsBesideATableAreRead) {
          "- {name: y, unit: kpc, datatype: float64}", "- {name: z, unit: kpc, datatype: float64}",
          "- {name: hsml, unit: pc, datatype: float64}"});
   }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_EQ(require_field(snapshot->info(), 0, "position").unit, "kpc");
-  EXPECT_THAT(values_of(snapshot->read(0, "smoothing_length")), ElementsAre(0.5F, 0.7F));
+  expect_snapshot(path_, {}, "unit position kpc | smoothing_length 0.5 0.7");
 }
 
 // format="table": arrays in records, whose columns attributes name as Python pickles lists.
@@ -81,9 +75,7 @@ TEST_F(Hdf5Layout, TablesOfPandasAreRead) {
     write_text(file, "df/table", "values_block_0_kind",
                "(lp0\nVx\np1\naVy\np2\naVz\np3\naVmass\np4\na.");
   }
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_THAT(absolute_positions(*snapshot, 0), ElementsAre(1, 2, 3, 4, 5, 6));
-  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(10, 20));
+  expect_snapshot(path_, {}, "position 1 2 3 4 5 6 | mass 10 20");
 }
 
 // A link back to the root makes the tree of groups endless.
@@ -94,7 +86,7 @@ TEST_F(Hdf5Layout, GroupsThatLeadInCirclesHaveAnEnd) {
     H5Lcreate_soft("/", file.id(), "a/b", H5P_DEFAULT, H5P_DEFAULT);
     H5Lcreate_soft("/", file.id(), "a/c", H5P_DEFAULT, H5P_DEFAULT);
   }
-  EXPECT_THAT([&] { open_snapshot(path_); }, ThrowsMessage<DataError>(HasSubstr("no positions")));
+  expect_snapshot(path_, {}, "refused no positions");
 }
 
 }  // namespace

@@ -1,13 +1,8 @@
 #include "formats/hdf5/hdf5_values.h"
-#include "formats/snapshot_checks.h"
-#include "snapshot/field_names.h"
-#include "splotchcl/snapshot_file.h"
+#include "formats/snapshot_rows.h"
 
 namespace splotchcl::test {
 namespace {
-
-using ::testing::DoubleNear;
-using ::testing::Pointwise;
 
 class OpenPmd : public ::testing::Test {
  protected:
@@ -55,41 +50,23 @@ class OpenPmd : public ::testing::Test {
   }
 };
 
-TEST_F(OpenPmd, PositionsAreFromTheirOffsets) {
+TEST_F(OpenPmd, PositionsAreFromTheirOffsetsAndConstantsTheSameForAll) {
   write({"100"}, {"e"});
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_EQ(snapshot->info().format, "HDF5 of openPMD");
-  EXPECT_THAT(absolute_positions(*snapshot, 0),
+  EXPECT_THAT(absolute_positions(*open_snapshot(path_), 0),
               Pointwise(DoubleNear(1e-9), {1001.25, 3001.25, 1001.25, 2002.25, 3002.25, 2002.25}));
-  EXPECT_EQ(require_field(snapshot->info(), 0, "position").unit, "1e-06 m");
-  EXPECT_THAT(snapshot->info().notes, IsEmpty());
+  expect_snapshot(path_, {},
+                  "format HDF5 of openPMD | unit position 1e-06 m | no notes | mass 9.5 9.5 | "
+                  "unit mass kg | ids 4294967297 5");
 }
 
-TEST_F(OpenPmd, ConstantsAreTheSameForAll) {
-  write({"100"}, {"e"});
-  const auto snapshot = open_snapshot(path_);
-  EXPECT_THAT(values_of(snapshot->read(0, "mass")), ElementsAre(9.5, 9.5));
-  EXPECT_EQ(require_field(snapshot->info(), 0, "mass").unit, "kg");
-  EXPECT_THAT(snapshot->read_ids(0), ElementsAre(4294967297U, 5U));
-}
-
-TEST_F(OpenPmd, OfIterationsTheLastIsRead) {
+TEST_F(OpenPmd, OfIterationsTheLastIsReadOrTheOneOfThePath) {
   write({"5", "20", "100"}, {"electrons", "ions"});
-  const auto last = open_snapshot(path_);
-  EXPECT_EQ(last->info().time, 0.75);
-  EXPECT_EQ(last->info().types.size(), 2U);
-  EXPECT_THAT(last->info().notes, Contains(HasSubstr("3 steps in time, /data/5 to /data/100")));
-  EXPECT_THAT(absolute_positions(*last, 1), Contains(1001.75));
-}
-
-TEST_F(OpenPmd, AnIterationIsASnapshotByItsPath) {
-  write({"5", "20", "100"}, {"electrons", "ions"});
-  const auto second = open_snapshot(path_ / "data/20");
-  EXPECT_EQ(second->info().time, 0.5);
-  EXPECT_EQ(second->info().types.size(), 2U);
-  EXPECT_EQ(second->info().files, std::vector<std::filesystem::path>{path_});
-  const auto ions = open_snapshot(path_ / "data/20/particles/ions");
-  EXPECT_EQ(ions->info().types.size(), 1U);
+  expect_snapshot(path_, {}, "time 0.75 | types 2 | note 3 steps in time, /data/5 to /data/100");
+  EXPECT_THAT(absolute_positions(*open_snapshot(path_), 1), Contains(1001.75));
+  expect_snapshot(path_ / "data/20", {}, "time 0.5 | types 2");
+  EXPECT_EQ(open_snapshot(path_ / "data/20")->info().files,
+            std::vector<std::filesystem::path>{path_});
+  expect_snapshot(path_ / "data/20/particles/ions", {}, "types 1");
 }
 
 }  // namespace

@@ -11,78 +11,17 @@ namespace {
 using ::testing::Optional;
 using namespace splotchcl::test;
 
-class Phantom : public ::testing::TestWithParam<SnapshotRow> {};
-
-TEST_P(Phantom, IsReadOrRefused) {
-  const TemporaryFolder folder;
-  write_described_hdf5(folder / "dump.h5", GetParam().contents.front());
-  expect_snapshot(folder / "dump.h5", GetParam().options, GetParam().expected);
-}
-
-// Gas, dust, gas.
-const std::string header =
-    "header/massoftype: 0.5 0 0 0 0 0 0.125 | header/hfact: 1.2 | header/time: 7 | "
-    "particles/dustfrac x2: 1 2 3 4 5 6 | sinks/xyz x3: 0 0 0 | ";
-const std::string places = "particles/xyz x3: 1 2 3 4 5 6 7 8 9 | ",
-                  types = "particles/itype: 1 7 1 | ", lengths = "particles/h: 1 2 4";
-
-INSTANTIATE_TEST_SUITE_P(
-    Dumps, Phantom,
-    ::testing::ValuesIn(std::vector<SnapshotRow>{
-        {"TypesAreToldApart",
-         {header + places + types + lengths},
-         "format Phantom HDF5 | time 7 | types 2 | count 2 | count/2 1 | mass 0.5 | mass/2 0.125 | "
-         "position 1 2 3 7 8 9 | position/2 4 5 6"},
-        {"SmoothingLengthsReachTheEndOfTheKernel",
-         {header + places + types + lengths},
-         "smoothing_length 2 8 | note reach 2 h"},
-        // 0.5 (1.2 / h)^3
-        {"DensitiesFollowFromSmoothingLengths",
-         {header + places + types + lengths},
-         "density 0.864 0.0135"},
-        {"WhatIsLeftOutIsNoted",
-         {header + places + types + lengths},
-         "note dustfrac | note sinks left out, as they have no smoothing length: 1"},
-        {"WithoutPositionsIsRefused", {header + types + lengths}, "refused no positions"},
-        {"DatasetsOfOtherLengthsAreRefused",
-         {header + places + types + "particles/h: 1 2"},
-         "refused h has 2 rows, but there are 3 positions"},
-        {"ADensityOfTheFilesOwnGoesBeforeThatFromSmoothingLengths",
-         {header + places + types + lengths + " | particles/rho: 10 20 30"},
-         "density 10 30"},
-        {"ParticlesOfNoKnownTypeAreKeptAndNoted",
-         {header + places + "particles/itype: -1 0 nan | " + lengths},
-         "count 1 | count/2 2 | note 2 particles are of types without"},
-        {"TypesThatAreNotOneNumberPerParticleAreRefused",
-         {header + places + "particles/itype x2: 1 1 | " + lengths},
-         "refused itype is not one number"},
-        {"AGroupWithoutAHeaderIsRead",
-         {"particles/xyz x3: 1 2 3 4 5 6 | particles/h: 0.5 1 | particles/m: 7 8 | "
-          "particles/rho: 9 10"},
-         "format HDF5 with a group particles, after sphNG | mass 7 8 | density 9 10 | "
-         "smoothing_length 1 2 | note as in sphNG it is taken to reach 2 h"},
-        {"AxesOfTheirOwnAreJoined",
-         {"particles/x: 1 4 1e6 | particles/y: 2 5 1e6 | particles/z: 3 6 1e6 | "
-          "particles/vx: 1 2 3 | particles/vy: 4 5 6 | particles/vz: 7 8 9"},
-         "position 1 2 3 4 5 6 1e6 1e6 1e6 | velocity 1 4 7 2 5 8 3 6 9 | no mass"},
-        {"PhasesTellTheTypes",
-         {"particles/xyz x3: 1 1 1 2 2 2 3 3 3 | particles/iphase i8: 0 -1 3"},
-         "iphase 0 | iphase/4 3 | iphase/5 -1"},
-        {"AxesOfDifferentLengthAreRefused",
-         {"particles/x: 1 4 | particles/y: 2 5 7 | particles/z: 3 6"},
-         "refused y has 3 rows, but there are 2 positions"},
-        {"AGroupWithoutPositionsIsRefused",
-         {"particles/x: 1 4 | particles/h: 1 4"},
-         "refused no positions"}}),
-    name_of_row);
+INSTANTIATE_TEST_SUITE_P(Phantom, DescribedHdf5,
+                         ::testing::ValuesIn(snapshot_rows("hdf5/phantom.rows")), name_of_row);
 
 // From the middle of all, or, of floats, from 0.
 TEST(PhantomOrigin, IsWherePositionsCountFrom) {
   const TemporaryFolder folder;
-  write_described_hdf5(folder / "dump.h5", header + places + types + lengths);
+  write_described_hdf5(folder / "dump.h5",
+                       "particles/xyz x3: 1 2 3 4 5 6 7 8 9 | particles/h: 1 2 4");
   const auto snapshot = open_snapshot(folder / "dump.h5");
   EXPECT_EQ(snapshot->position_origin().a[0], 4);
-  EXPECT_THAT(values_of(snapshot->read(0, "position")), ElementsAre(-3, -3, -3, 3, 3, 3));
+  EXPECT_THAT(values_of(snapshot->read(0, "position")), ElementsAre(-3, -3, -3, 0, 0, 0, 3, 3, 3));
   write_described_hdf5(folder / "dump.h5",
                        "particles/x f32: 1e-7 1000 | particles/y f32: 0 0 | particles/z f32: 0 0");
   EXPECT_EQ(open_snapshot(folder / "dump.h5")->read(0, "position")[0], 1e-7F);

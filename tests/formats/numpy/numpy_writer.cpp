@@ -22,10 +22,11 @@ std::string numpy_header(const std::string& type, const std::string& shape, bool
          ", 'shape': " + shape + ", }";
 }
 
-void write_zip(const std::filesystem::path& path,
-               const std::vector<std::pair<std::string, std::string>>& entries, bool is_packed) {
-  int error = 0;
-  zip_t* const archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error);
+std::string zip_bytes(const std::vector<std::pair<std::string, std::string>>& entries,
+                      bool is_packed) {
+  zip_source_t* const whole = zip_source_buffer_create(nullptr, 0, 0, nullptr);
+  zip_source_keep(whole);
+  zip_t* const archive = zip_open_from_source(whole, ZIP_TRUNCATE, nullptr);
   if (archive == nullptr) throw std::runtime_error("no archive");
   for (const auto& [name, content] : entries) {
     zip_source_t* const source = zip_source_buffer(archive, content.data(), content.size(), 0);
@@ -34,6 +35,13 @@ void write_zip(const std::filesystem::path& path,
                              is_packed ? ZIP_CM_DEFLATE : ZIP_CM_STORE, 6);
   }
   if (zip_close(archive) != 0) throw std::runtime_error("the archive cannot be written");
+  zip_source_open(whole);
+  zip_source_seek(whole, 0, SEEK_END);
+  std::string bytes(static_cast<std::size_t>(zip_source_tell(whole)), '\0');
+  zip_source_seek(whole, 0, SEEK_SET);
+  zip_source_read(whole, bytes.data(), bytes.size());
+  zip_source_free(whole);
+  return bytes;
 }
 
 }  // namespace splotchcl::test

@@ -19,7 +19,7 @@ std::string bytes_of(const std::vector<T>& values) {
   return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-void write_zip(const std::filesystem::path& path,
-               const std::vector<std::pair<std::string, std::string>>& entries, bool is_packed);
+std::string zip_bytes(const std::vector<std::pair<std::string, std::string>>& entries,
+                      bool is_packed);
 
 }  // namespace splotchcl::test

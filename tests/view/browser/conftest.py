@@ -82,8 +82,9 @@ class View:
 
 @pytest.fixture(scope="session")
 def kernels(tmp_path_factory) -> Path:
-    """Compiled kernels, which all programs of these tests share."""
-    return tmp_path_factory.mktemp("kernels")
+    """Compiled kernels, which all programs of these tests share, with other tests where ctest says so."""
+    shared = os.environ.get("SPLOTCHCL_CACHE")
+    return Path(shared) if shared else tmp_path_factory.mktemp("kernels")
 
 
 @pytest.fixture
