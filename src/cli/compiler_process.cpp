@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "common/child_process.h"
-#include "device/opencl/local_compiler.h"
+#include "device/opencl/program_build.h"
 #include "splotchcl/error.h"
 #include "system/system.h"
 
