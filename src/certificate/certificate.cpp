@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "certificate/color_errors.h"
 #include "certificate/color_light.h"
 #include "certificate/octave_errors.h"
 #include "certificate/picture_light.h"

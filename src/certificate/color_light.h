@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "certificate/color_errors.h"
 #include "certificate/octave_errors.h"
 #include "certificate/picture_light.h"
 #include "splotchcl/frame.h"
@@ -11,6 +10,19 @@
 #include "splotchcl/plan.h"
 
 namespace splotchcl {
+
+// The part by which a splat may err in any channel since its place in the palette, and its
+// intensity, are rounded (docs/dev/accuracy.md, "Colors and intensities"): of its brightest
+// channel's light, and of the channel's own; the latter is infinite where a channel has no light at
+// a knot. By roundings of either sign as an estimate, all of one sign where a bound is asked for
+// (FramePlan::certify) and in extended precision. No part of its light bounds what a splat errs by
+// whose palette, or intensity, comes close to black elsewhere than where it begins: what is given
+// then is an estimate.
+struct ColorParts {
+  double of_brightest = 0, of_itself = 0;
+  bool are_bounds = true;
+};
+ColorParts parts_of_colors(const Frame& frame, const FramePlan& plan);
 
 // What errors of colors do to a picture: where a splat errs in one channel by a part of its
 // brightest, which may be far brighter than the one that errs (docs/dev/accuracy.md, "Colors and

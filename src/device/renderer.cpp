@@ -15,7 +15,7 @@
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
-#include "device/ranks/fetch_particles.h"
+#include "device/ranks/rank_share.h"
 #include "parallel/thread_pool.h"
 #include "ranks/exchange.h"
 #include "ranks/spread_particles.h"

@@ -3,7 +3,7 @@
 #include <mutex>
 #include <thread>
 
-#include "device/opencl/local_compiler.h"
+#include "device/opencl/program_build.h"
 #include "device/opencl/program_text.h"
 #include "device/opencl/shared_work.h"
 #include "device/pictures.h"

@@ -4,7 +4,7 @@
 #include "device/cloud_frames.h"
 #include "device/opencl/device_context.h"
 #include "device/pipeline.h"
-#include "device/ranks/fetch_particles.h"
+#include "device/ranks/rank_share.h"
 #include "device/stages.h"
 #include "frames/random_frames.h"
 #include "ranks/spread_particles.h"

@@ -2,11 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "device/frame/chunks.h"
 #include "device/opencl/device_traits.h"
+#include "splotchcl/communicator.h"
 #include "splotchcl/frame.h"
+#include "splotchcl/plan.h"
 
 namespace splotchcl {
 
@@ -21,5 +24,19 @@ int owner_of_leaf(std::size_t leaf, std::size_t count, int ranks);
 // of a particle does not depend on the others of its chunk.
 std::vector<ParticleChunk> particles_of_rank(const Frame& frame, const DeviceTraits& traits,
                                              int rank, int ranks);
+
+// As long as it lives, this rank has those particles of a frame that it draws, where they are
+// spread over ranks; else it does nothing. A frame that is drawn again has the same share.
+class FetchedParticles {
+ public:
+  // Collective.
+  FetchedParticles(const Frame& frame, const FramePlan& plan, const DeviceTraits& traits);
+  ~FetchedParticles();
+  FetchedParticles(const FetchedParticles&) = delete;
+  FetchedParticles& operator=(const FetchedParticles&) = delete;
+
+ private:
+  std::shared_ptr<SpreadParticles> spread_;
+};
 
 }  // namespace splotchcl
