@@ -97,13 +97,8 @@ bool mixes_nothing(const FinishSettings& finish) {
          finish.saturation == 1 && finish.contrast == 1;
 }
 
-}  // namespace
-
-double error_growth(FinishSettings finish, double gamma, double gain) {
-  finish.contrast = std::max(1.0, finish.contrast);
-  if (mixes_nothing(finish)) return 1;
-  const double white = finish.white.value() * std::exp2(-finish.exposure.value());
-  const std::vector<Color> colors = colors_up_to(white);
+double growth_of(const std::vector<Color>& colors, const FinishSettings& finish, double gamma,
+                 double gain) {
   const Image drawn = image_of(colors);
   Image shown = drawn;
   adjust_light(shown, finish, gamma);
@@ -116,6 +111,35 @@ double error_growth(FinishSettings finish, double gamma, double gain) {
     growth = std::max(growth, largest_growth(shown, other, units));
   }
   return growth;
+}
+
+std::vector<Color> some_colors(const Image& light) {
+  constexpr std::size_t most = 131072;
+  const std::size_t pixels = light.pixels.size() / 4;
+  const std::size_t stride = (pixels + most - 1) / most;
+  std::vector<Color> found;
+  for (std::size_t i = 0; i < pixels; i += stride) {
+    Color color{};
+    for (std::size_t c = 0; c < 3; ++c)
+      color[c] = static_cast<double>(light.pixels[4 * i + c]);
+    found.push_back(color);
+  }
+  return found;
+}
+
+}  // namespace
+
+double error_growth(FinishSettings finish, double gamma, double gain) {
+  finish.contrast = std::max(1.0, finish.contrast);
+  if (mixes_nothing(finish)) return 1;
+  const double white = finish.white.value() * std::exp2(-finish.exposure.value());
+  return growth_of(colors_up_to(white), finish, gamma, gain);
+}
+
+double error_growth(const Image& light, FinishSettings finish, double gamma, double gain) {
+  finish.contrast = std::max(1.0, finish.contrast);
+  if (mixes_nothing(finish)) return 1;
+  return growth_of(some_colors(light), finish, gamma, gain);
 }
 
 }  // namespace splotchcl

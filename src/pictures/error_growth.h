@@ -1,6 +1,7 @@
 #pragma once
 
 #include "splotchcl/finish.h"
+#include "splotchcl/image.h"
 
 namespace splotchcl {
 
@@ -10,5 +11,8 @@ namespace splotchcl {
 // brightest channel. Found by finishing colors of all kinds with errors of all signs. A contrast
 // below 1, which is infinitely steep in the dark, counts as 1. Exposure and white are known.
 double error_growth(FinishSettings finish, double gamma, double gain);
+
+// The same of a picture's own colors, of which some hundred thousand are finished.
+double error_growth(const Image& light, FinishSettings finish, double gamma, double gain);
 
 }  // namespace splotchcl

@@ -70,23 +70,25 @@ Frame brighter(Frame frame, double factor) {
 
 namespace {
 
-DisplayGain gain_from(const FinishSettings& finish, double gamma, double least_of_light,
-                      double least_of_errors) {
+double gain_of_light(const FinishSettings& finish, double least) {
   const double slope = steepest_slope(finish.tone, finish.white.value());
-  DisplayGain gain;
-  gain.of_light = std::clamp(std::exp2(*finish.exposure) * slope, least_of_light, largest_gain);
-  gain.of_errors = std::max(least_of_errors, error_growth(finish, gamma, gain.of_light));
-  return gain;
+  return std::clamp(std::exp2(*finish.exposure) * slope, least, largest_gain);
 }
 
 }  // namespace
 
 DisplayGain display_gain(const FinishSettings& finish, double gamma) {
-  return gain_from(finish, gamma, 1, 1);
+  DisplayGain gain;
+  gain.of_light = gain_of_light(finish, 1);
+  gain.of_errors = std::max(1.0, error_growth(finish, gamma, gain.of_light));
+  return gain;
 }
 
-DisplayGain display_gain_of_shown(const FinishSettings& finish, double gamma) {
-  return gain_from(finish, gamma, least_gain, least_growth);
+DisplayGain display_gain_of_shown(const Image& light, const FinishSettings& finish, double gamma) {
+  DisplayGain gain;
+  gain.of_light = gain_of_light(finish, least_gain);
+  gain.of_errors = std::max(least_growth, error_growth(light, finish, gamma, gain.of_light));
+  return gain;
 }
 
 bool keeps_promise_at(double gain, double estimated_error_of_promise) {
