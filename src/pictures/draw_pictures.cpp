@@ -136,19 +136,28 @@ class Views {
   // With errors counted as they are shown, also where that is less often. What exposure makes of
   // them is known beforehand from rough light, and found again from what was drawn.
   std::vector<Image> draw_loosely(const DrawFrame& draw, const DrawFrame& draw_roughly) const {
-    constexpr double margin = 1.15;  // of exposures that are found from rough light
-    const double gamma = scene_.image.gamma;
-    const bool is_open = has_open_tone(scene_.finish);
-    FinishSettings finish = scene_.finish;
-    if (is_open) finish = with_tone_of_all(draw_places(frame_, draw_roughly));
-    while (true) {
-      DisplayGain gain = display_gain_of_shown(finish, gamma);
-      if (is_open) gain.of_errors *= margin;
-      std::vector<Image> images = draw_places(frame_, with_errors_counted(draw, gain));
-      if (!is_open) return images;
-      finish = with_tone_of_all(images);
-      if (display_gain_of_shown(finish, gamma).total() <= gain.total()) return images;
+    constexpr double margin = 1.1;  // for what rough light, and some of its colors, do not tell
+    std::vector<Image> images = draw_places(frame_, draw_roughly);
+    DisplayGain gain;
+    do {
+      gain = gain_of(images);
+      gain.of_errors *= margin;
+      images = draw_places(frame_, with_errors_counted(draw, gain));
+    } while (gain_of(images).total() > gain.total());
+    return images;
+  }
+
+  DisplayGain gain_of(std::vector<Image> images) const {
+    const FinishSettings finish =
+        has_open_tone(scene_.finish) ? with_tone_of_all(images) : scene_.finish;
+    DisplayGain largest;
+    largest.of_light = 0;
+    for (Image& image : images) {
+      add_bloom(image, scene_.finish.bloom);
+      const DisplayGain gain = display_gain_of_shown(image, finish, scene_.image.gamma);
+      if (gain.total() > largest.total()) largest = gain;
     }
+    return largest;
   }
 
   FinishSettings with_tone_of_all(const std::vector<Image>& images) const {

@@ -99,16 +99,8 @@ bool mixes_nothing(const FinishSettings& finish) {
          finish.saturation == 1 && finish.contrast == 1;
 }
 
-// By how much relative errors of light grow where it is finished: by exposure, balance of white,
-// tone, highlights, saturation and contrast. A channel errs by a part of its light or of 1 /
-// `gain`, whichever is more, and what is shown counts in units of white or of its pixel's brightest
-// channel. Found by finishing colors of all kinds with errors of all signs. A contrast below 1,
-// which is infinitely steep in the dark, counts as 1. Exposure and white are known.
-double error_growth(FinishSettings finish, double gamma, double gain) {
-  finish.contrast = std::max(1.0, finish.contrast);
-  if (mixes_nothing(finish)) return 1;
-  const double white = finish.white.value() * std::exp2(-finish.exposure.value());
-  const std::vector<Color> colors = colors_up_to(white);
+double growth_of(const std::vector<Color>& colors, const FinishSettings& finish, double gamma,
+                 double gain) {
   const Image drawn = image_of(colors);
   Image shown = drawn;
   adjust_light(shown, finish, gamma);
@@ -121,6 +113,39 @@ double error_growth(FinishSettings finish, double gamma, double gain) {
     growth = std::max(growth, largest_growth(shown, other, units));
   }
   return growth;
+}
+
+std::vector<Color> some_colors(const Image& light) {
+  constexpr std::size_t most = 131072;
+  const std::size_t pixels = light.pixels.size() / 4;
+  const std::size_t stride = (pixels + most - 1) / most;
+  std::vector<Color> found;
+  for (std::size_t i = 0; i < pixels; i += stride) {
+    Color color{};
+    for (std::size_t c = 0; c < 3; ++c)
+      color[c] = static_cast<double>(light.pixels[4 * i + c]);
+    found.push_back(color);
+  }
+  return found;
+}
+
+// By how much relative errors of light grow where it is finished: by exposure, balance of white,
+// tone, highlights, saturation and contrast. A channel errs by a part of its light or of 1 /
+// `gain`, whichever is more, and what is shown counts in units of white or of its pixel's brightest
+// channel. Found by finishing colors of all kinds with errors of all signs. A contrast below 1,
+// which is infinitely steep in the dark, counts as 1. Exposure and white are known.
+double error_growth(FinishSettings finish, double gamma, double gain) {
+  finish.contrast = std::max(1.0, finish.contrast);
+  if (mixes_nothing(finish)) return 1;
+  const double white = finish.white.value() * std::exp2(-finish.exposure.value());
+  return growth_of(colors_up_to(white), finish, gamma, gain);
+}
+
+// The same of a picture's own colors, of which some hundred thousand are finished.
+double error_growth(const Image& light, FinishSettings finish, double gamma, double gain) {
+  finish.contrast = std::max(1.0, finish.contrast);
+  if (mixes_nothing(finish)) return 1;
+  return growth_of(some_colors(light), finish, gamma, gain);
 }
 
 constexpr double largest_gain = 1073741824;  // 2^30
@@ -178,23 +203,25 @@ Frame brighter(Frame frame, double factor) {
   return frame;
 }
 
-DisplayGain gain_from(const FinishSettings& finish, double gamma, double least_of_light,
-                      double least_of_errors) {
+double gain_of_light(const FinishSettings& finish, double least) {
   const double slope = steepest_slope(finish.tone, finish.white.value());
-  DisplayGain gain;
-  gain.of_light = std::clamp(std::exp2(*finish.exposure) * slope, least_of_light, largest_gain);
-  gain.of_errors = std::max(least_of_errors, error_growth(finish, gamma, gain.of_light));
-  return gain;
+  return std::clamp(std::exp2(*finish.exposure) * slope, least, largest_gain);
 }
 
 }  // namespace
 
 DisplayGain display_gain(const FinishSettings& finish, double gamma) {
-  return gain_from(finish, gamma, 1, 1);
+  DisplayGain gain;
+  gain.of_light = gain_of_light(finish, 1);
+  gain.of_errors = std::max(1.0, error_growth(finish, gamma, gain.of_light));
+  return gain;
 }
 
-DisplayGain display_gain_of_shown(const FinishSettings& finish, double gamma) {
-  return gain_from(finish, gamma, least_gain, least_growth);
+DisplayGain display_gain_of_shown(const Image& light, const FinishSettings& finish, double gamma) {
+  DisplayGain gain;
+  gain.of_light = gain_of_light(finish, least_gain);
+  gain.of_errors = std::max(least_growth, error_growth(light, finish, gamma, gain.of_light));
+  return gain;
 }
 
 bool keeps_promise_at(double gain, double estimated_error_of_promise) {

@@ -21,9 +21,9 @@ struct DisplayGain {
 // Exposure and white are known.
 DisplayGain display_gain(const FinishSettings& finish, double gamma);
 
-// The same without its lower limits: below 1 where light is shown darker than it is drawn, so that
-// more of what it errs by serves.
-DisplayGain display_gain_of_shown(const FinishSettings& finish, double gamma);
+// The same for the colors of a picture, without lower limits: below 1 where light is shown darker
+// than it is drawn, so that more of what it errs by serves.
+DisplayGain display_gain_of_shown(const Image& light, const FinishSettings& finish, double gamma);
 
 // Draws frames so that errors count as often.
 DrawFrame with_errors_counted(const DrawFrame& draw, const DisplayGain& gain);

@@ -103,10 +103,11 @@ TEST(DisplayGain, LoosensNoPromise) {
 
 TEST(DisplayGain, OfShownLightAloneIsBelowOneWhereItIsDarkened) {
   FinishSettings finish;
+  const Image light(4, 4);
   finish.exposure = -3;
-  EXPECT_EQ(display_gain_of_shown(finish, 2.2).total(), 0.125);
+  EXPECT_EQ(display_gain_of_shown(light, finish, 2.2).total(), 0.125);
   finish.exposure = 7;
-  EXPECT_EQ(display_gain_of_shown(finish, 2.2).total(), 128);
+  EXPECT_EQ(display_gain_of_shown(light, finish, 2.2).total(), 128);
 }
 
 // Every pixel errs by all that is allowed, up or down.
@@ -159,7 +160,7 @@ TEST(DisplayGain, OfShownLightKeepsThePromise) {
         value *= static_cast<float>(factor);
       return erring(light, counted.tolerance);
     };
-    const Image light = with_errors_counted(draw, display_gain_of_shown(finish, 2.2))(frame);
+    const Image light = with_errors_counted(draw, display_gain_of_shown(exact, finish, 2.2))(frame);
     const double error = error_in_units(light, exact, finish) / frame.tolerance;
     EXPECT_LE(error, 1.05) << "exposure " << *finish.exposure << ", white " << *finish.white;
     largest = std::max(largest, error);
