@@ -46,6 +46,12 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+// Tests that each have one.
+class FolderTest : public ::testing::Test {
+ protected:
+  const TemporaryFolder folder_;
+};
+
 inline std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};

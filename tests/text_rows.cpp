@@ -79,7 +79,8 @@ class Reader {
 
   void end_row() {
     if (row_.expected.empty()) {
-      if (!text_.empty()) throw std::runtime_error("nothing is expected of " + text_);
+      if (!text_.empty() || !row_.texts.empty())
+        throw std::runtime_error("nothing is expected of a text of " + name_);
       return;
     }
     row_.name = name_ + (++count_ > 1 ? "_" + std::to_string(count_) : "");

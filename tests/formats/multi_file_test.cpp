@@ -219,19 +219,19 @@ TEST(LightCone, OfGadget4IsReadFromAllOfItsFiles) {
   EXPECT_THAT(refusal(folder / "cone.1.hdf5"), HasSubstr("cone.0.hdf5: missing"));
 }
 
-TEST(SnapshotFolder, WithSeveralSnapshotsIsRefusedWithTheirNames) {
-  const TemporaryFolder folder;
-  write_gadget(folder / "snap_001", small_snapshot(), 2);
-  write_gadget(folder / "snap_002", small_snapshot(), 2);
-  write_bytes(folder / "notes.txt", "not a snapshot");
-  EXPECT_THAT(refusal(folder.path()),
+using SnapshotFolder = FolderTest;
+
+TEST_F(SnapshotFolder, WithSeveralSnapshotsIsRefusedWithTheirNames) {
+  write_gadget(folder_ / "snap_001", small_snapshot(), 2);
+  write_gadget(folder_ / "snap_002", small_snapshot(), 2);
+  write_bytes(folder_ / "notes.txt", "not a snapshot");
+  EXPECT_THAT(refusal(folder_.path()),
               AllOf(HasSubstr("2 snapshots"), HasSubstr("snap_001"), HasSubstr("snap_002")));
 }
 
-TEST(SnapshotFolder, WithoutSnapshotsIsRefused) {
-  const TemporaryFolder folder;
-  write_bytes(folder / "notes.txt", "not a snapshot");
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("no snapshot in this folder"));
+TEST_F(SnapshotFolder, WithoutSnapshotsIsRefused) {
+  write_bytes(folder_ / "notes.txt", "not a snapshot");
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("no snapshot in this folder"));
 }
 
 void write_map(const std::filesystem::path& path) {
@@ -242,28 +242,25 @@ void write_map(const std::filesystem::path& path) {
   write_attribute(file, "map", "extent", {0, 1, 0, 1});
 }
 
-TEST(SnapshotFolder, MayHoldMapsBesideItsSnapshot) {
-  const TemporaryFolder folder;
-  write_map(folder / "sigma.hdf5");
-  write_bytes(folder / "sigma.npy",
+TEST_F(SnapshotFolder, MayHoldMapsBesideItsSnapshot) {
+  write_map(folder_ / "sigma.hdf5");
+  write_bytes(folder_ / "sigma.npy",
               numpy_bytes(numpy_header("<f4", "(2, 64)"), bytes_of(std::vector<float>(128, 1))));
-  write_bytes(folder / "with_noise.npy",
+  write_bytes(folder_ / "with_noise.npy",
               numpy_bytes(numpy_header("<f4", "(2, 3, 3)"), bytes_of(std::vector<float>(18, 1))));
-  write_gadget(folder / "snap_001", small_snapshot(), 2);
-  EXPECT_EQ(open_snapshot(folder.path())->info().files.front(), folder / "snap_001");
+  write_gadget(folder_ / "snap_001", small_snapshot(), 2);
+  EXPECT_EQ(open_snapshot(folder_.path())->info().files.front(), folder_ / "snap_001");
 }
 
-TEST(SnapshotFolder, OfAMapAloneIsRefusedForWhatItHolds) {
-  const TemporaryFolder folder;
-  write_map(folder / "sigma.hdf5");
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("sigma.hdf5: holds a map"));
+TEST_F(SnapshotFolder, OfAMapAloneIsRefusedForWhatItHolds) {
+  write_map(folder_ / "sigma.hdf5");
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("sigma.hdf5: holds a map"));
 }
 
-TEST(SnapshotFolder, SurplusMembersAreNotSilentlyDropped) {
-  const TemporaryFolder folder;
-  write_gadget_set(folder / "snap", split(small_snapshot(), 2), 2);
-  write_gadget(folder / "snap.2", small_snapshot(), 2);
-  EXPECT_THAT(refusal(folder.path()), HasSubstr("holds 3 files"));
+TEST_F(SnapshotFolder, SurplusMembersAreNotSilentlyDropped) {
+  write_gadget_set(folder_ / "snap", split(small_snapshot(), 2), 2);
+  write_gadget(folder_ / "snap.2", small_snapshot(), 2);
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("holds 3 files"));
 }
 
 TEST(SnapshotName, TheEndingMayBeLeftOut) {

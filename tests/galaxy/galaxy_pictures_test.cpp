@@ -41,23 +41,23 @@ std::string refusal(const std::filesystem::path& path) {
   return refusal_by<DataError>([&] { read_galaxy(path, small_settings()); });
 }
 
-TEST(GalaxyPictures, EightAndSixteenBitsAndFloatsHoldTheSameGalaxy) {
-  const TemporaryFolder folder;
+using GalaxyPictures = FolderTest;
+
+TEST_F(GalaxyPictures, EightAndSixteenBitsAndFloatsHoldTheSameGalaxy) {
   const Image image = DiskPicture().draw();
-  store(folder / "8.png", image, 3, OIIO::TypeDesc::UINT8);
-  store(folder / "16.png", image, 3, OIIO::TypeDesc::UINT16);
-  store(folder / "float.exr", image, 3, OIIO::TypeDesc::FLOAT);
+  store(folder_ / "8.png", image, 3, OIIO::TypeDesc::UINT8);
+  store(folder_ / "16.png", image, 3, OIIO::TypeDesc::UINT16);
+  store(folder_ / "float.exr", image, 3, OIIO::TypeDesc::FLOAT);
   const double exact = light(make_galaxy(image, small_settings()));
   // Eight bits round light of 0.02 by up to 0.0008, most of its noise.
-  EXPECT_NEAR(light(read_galaxy(folder / "8.png", small_settings())) / exact, 1, 0.03);
-  EXPECT_NEAR(light(read_galaxy(folder / "16.png", small_settings())) / exact, 1, 0.002);
-  EXPECT_NEAR(light(read_galaxy(folder / "float.exr", small_settings())) / exact, 1, 0.002);
+  EXPECT_NEAR(light(read_galaxy(folder_ / "8.png", small_settings())) / exact, 1, 0.03);
+  EXPECT_NEAR(light(read_galaxy(folder_ / "16.png", small_settings())) / exact, 1, 0.002);
+  EXPECT_NEAR(light(read_galaxy(folder_ / "float.exr", small_settings())) / exact, 1, 0.002);
 }
 
-TEST(GalaxyPictures, GreyPicturesMakeGreyGalaxies) {
-  const TemporaryFolder folder;
-  store(folder / "grey.png", DiskPicture().draw(), 1, OIIO::TypeDesc::UINT8);
-  const Galaxy galaxy = read_galaxy(folder / "grey.png", small_settings());
+TEST_F(GalaxyPictures, GreyPicturesMakeGreyGalaxies) {
+  store(folder_ / "grey.png", DiskPicture().draw(), 1, OIIO::TypeDesc::UINT8);
+  const Galaxy galaxy = read_galaxy(folder_ / "grey.png", small_settings());
   ASSERT_GT(galaxy.gas.count(), 1000u);
   for (std::size_t i = 0; i < galaxy.gas.count(); ++i) {
     ASSERT_EQ(galaxy.gas.color[3 * i], galaxy.gas.color[3 * i + 1]);
@@ -65,93 +65,85 @@ TEST(GalaxyPictures, GreyPicturesMakeGreyGalaxies) {
   }
 }
 
-TEST(GalaxyPictures, TransparentPixelsHaveNoLight) {
-  const TemporaryFolder folder;
+TEST_F(GalaxyPictures, TransparentPixelsHaveNoLight) {
   Image image = DiskPicture().draw();
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x)
       image.at(x, y)[3] = x < 80 ? 1.0F : 0.0F;
   }
-  store(folder / "half.png", image, 4, OIIO::TypeDesc::UINT8);
+  store(folder_ / "half.png", image, 4, OIIO::TypeDesc::UINT8);
   GalaxySettings settings = small_settings();
   settings.center = {80, 80};
-  const Galaxy galaxy = read_galaxy(folder / "half.png", settings);
+  const Galaxy galaxy = read_galaxy(folder_ / "half.png", settings);
   ASSERT_GT(galaxy.gas.count(), 1000u);
   for (std::size_t i = 0; i < galaxy.gas.count(); ++i)
     ASSERT_LT(galaxy.gas.position[3 * i], 0.2F);
 }
 
 // Averaged in light: a checkerboard of 0 and 1 is 0.5, not what its values' mean shows.
-TEST(GalaxyPictures, LargePicturesAreAveragedAsLight) {
-  const TemporaryFolder folder;
+TEST_F(GalaxyPictures, LargePicturesAreAveragedAsLight) {
   Image board(20000, 40);
   for (int y = 0; y < board.height; ++y) {
     for (int x = 0; x < board.width; ++x)
       std::fill_n(board.at(x, y), 3, (x + y) % 2 == 0 ? 1.0F : 0.0F);
   }
-  store(folder / "board.tif", board, 3, OIIO::TypeDesc::UINT8);
+  store(folder_ / "board.tif", board, 3, OIIO::TypeDesc::UINT8);
   LinearImageOptions options;
   options.longest_side = galaxy_picture_limit;
-  const Image reduced = read_linear_image(folder / "board.tif", options);
+  const Image reduced = read_linear_image(folder_ / "board.tif", options);
   EXPECT_EQ(reduced.width, 1000);
   EXPECT_EQ(reduced.height, 2);
   for (std::size_t i = 0; i < reduced.pixels.size(); ++i)
     ASSERT_NEAR(reduced.pixels[i], i % 4 == 3 ? 1 : 0.5, 1e-6);
 }
 
-TEST(GalaxyPictures, APictureOfTwentyThousandPixelsMakesAGalaxy) {
-  const TemporaryFolder folder;
+TEST_F(GalaxyPictures, APictureOfTwentyThousandPixelsMakesAGalaxy) {
   DiskPicture picture;
   picture.width = 20000;
   picture.height = 600;
   picture.center_x = 6000;
   picture.center_y = 300;
   picture.scale = 100;
-  store(folder / "wide.tif", picture.draw(), 1, OIIO::TypeDesc::UINT8);
+  store(folder_ / "wide.tif", picture.draw(), 1, OIIO::TypeDesc::UINT8);
   GalaxySettings settings = small_settings();
   settings.size_kpc = 2000;
-  const Galaxy galaxy = read_galaxy(folder / "wide.tif", settings);
+  const Galaxy galaxy = read_galaxy(folder_ / "wide.tif", settings);
   EXPECT_DOUBLE_EQ(galaxy.pixel_size_kpc, 2);
   // In pixels of the file, of which 20 are averaged to one.
   EXPECT_NEAR(galaxy.center[0], 6000, 20);
   EXPECT_NEAR(galaxy.center[1], 300, 20);
 }
 
-TEST(GalaxyPictures, OnePixelIsRefused) {
-  const TemporaryFolder folder;
+TEST_F(GalaxyPictures, OnePixelIsRefused) {
   Image image(1, 1);
   std::fill(image.pixels.begin(), image.pixels.end(), 1.0F);
-  store(folder / "one.png", image, 3, OIIO::TypeDesc::UINT8);
-  EXPECT_THAT(refusal(folder / "one.png"), HasSubstr("one.png: the picture has 1x1 pixels"));
+  store(folder_ / "one.png", image, 3, OIIO::TypeDesc::UINT8);
+  EXPECT_THAT(refusal(folder_ / "one.png"), HasSubstr("one.png: the picture has 1x1 pixels"));
 }
 
-TEST(GalaxyPictures, BlackPicturesAreRefused) {
-  const TemporaryFolder folder;
-  store(folder / "black.png", Image(64, 64), 3, OIIO::TypeDesc::UINT8);
-  EXPECT_THAT(refusal(folder / "black.png"), HasSubstr("no light above its sky"));
+TEST_F(GalaxyPictures, BlackPicturesAreRefused) {
+  store(folder_ / "black.png", Image(64, 64), 3, OIIO::TypeDesc::UINT8);
+  EXPECT_THAT(refusal(folder_ / "black.png"), HasSubstr("no light above its sky"));
 }
 
-TEST(GalaxyPictures, EvenPicturesAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(GalaxyPictures, EvenPicturesAreRefused) {
   Image image(64, 64);
   std::fill(image.pixels.begin(), image.pixels.end(), 0.5F);
-  store(folder / "even.png", image, 3, OIIO::TypeDesc::UINT8);
-  EXPECT_THAT(refusal(folder / "even.png"), HasSubstr("no light above its sky"));
+  store(folder_ / "even.png", image, 3, OIIO::TypeDesc::UINT8);
+  EXPECT_THAT(refusal(folder_ / "even.png"), HasSubstr("no light above its sky"));
 }
 
-TEST(GalaxyPictures, ValuesThatAreNoLightAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(GalaxyPictures, ValuesThatAreNoLightAreRefused) {
   Image image = DiskPicture().draw();
   image.at(3, 4)[1] = NAN;
-  store(folder / "nan.exr", image, 3, OIIO::TypeDesc::FLOAT);
-  EXPECT_THAT(refusal(folder / "nan.exr"), HasSubstr("at pixel 3,4"));
+  store(folder_ / "nan.exr", image, 3, OIIO::TypeDesc::FLOAT);
+  EXPECT_THAT(refusal(folder_ / "nan.exr"), HasSubstr("at pixel 3,4"));
 }
 
-TEST(GalaxyPictures, OtherFilesAreRefused) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "text.png") << "not a picture";
-  EXPECT_THAT(refusal(folder / "text.png"), HasSubstr("cannot be read as a picture"));
-  EXPECT_THAT(refusal(folder / "missing.png"), HasSubstr("missing.png"));
+TEST_F(GalaxyPictures, OtherFilesAreRefused) {
+  std::ofstream(folder_ / "text.png") << "not a picture";
+  EXPECT_THAT(refusal(folder_ / "text.png"), HasSubstr("cannot be read as a picture"));
+  EXPECT_THAT(refusal(folder_ / "missing.png"), HasSubstr("missing.png"));
 }
 
 // The galaxy from other sides than that of its picture, and from close by.

@@ -116,69 +116,65 @@ TEST_P(LossyFormats, KeepASmoothPictureNearly) {
   EXPECT_LT(sum / (3 * 64 * 64), 0.02);
 }
 
-TEST(ImageFile, AppliesTheGammaToEightBitsOnly) {
-  const TemporaryFolder folder;
+using ImageFile = FolderTest;
+
+TEST_F(ImageFile, AppliesTheGammaToEightBitsOnly) {
   Image image(1, 1);
   image.pixels = {0.25F, 1, 0, 1};
-  write_image(folder / "a.png", image, {2, false, {}});
-  EXPECT_FLOAT_EQ(read_image(folder / "a.png").at(0, 0)[0], 128.0F / 255);  // 127.5 rounds up
-  write_image(folder / "a.exr", image, {2, false, {}});
-  EXPECT_EQ(read_image(folder / "a.exr").at(0, 0)[0], 0.25F);
+  write_image(folder_ / "a.png", image, {2, false, {}});
+  EXPECT_FLOAT_EQ(read_image(folder_ / "a.png").at(0, 0)[0], 128.0F / 255);  // 127.5 rounds up
+  write_image(folder_ / "a.exr", image, {2, false, {}});
+  EXPECT_EQ(read_image(folder_ / "a.exr").at(0, 0)[0], 0.25F);
 }
 
-TEST(ImageFile, ClampsColorsBeyondWhiteInEightBits) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, ClampsColorsBeyondWhiteInEightBits) {
   Image image(1, 1);
   image.pixels = {7, -1, std::numeric_limits<float>::infinity(), 1};
-  write_image(folder / "a.png", image);
-  const Image read = read_image(folder / "a.png");
+  write_image(folder_ / "a.png", image);
+  const Image read = read_image(folder_ / "a.png");
   EXPECT_EQ(read.at(0, 0)[0], 1);
   EXPECT_EQ(read.at(0, 0)[1], 0);
   EXPECT_EQ(read.at(0, 0)[2], 1);
 }
 
-TEST(ImageFile, KeepsColorBeyondWhiteInRadianceFiles) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, KeepsColorBeyondWhiteInRadianceFiles) {
   Image image(1, 1);
   image.pixels = {8, 4, 2, 1};  // exact in a shared exponent
-  write_image(folder / "a.hdr", image);
-  const Image read = read_image(folder / "a.hdr");
+  write_image(folder_ / "a.hdr", image);
+  const Image read = read_image(folder_ / "a.hdr");
   EXPECT_NEAR(read.at(0, 0)[0], 8, 8.0 / 256);
   EXPECT_NEAR(read.at(0, 0)[2], 2, 8.0 / 256);
 }
 
-TEST(ImageFile, RefusesToStoreNotANumberInEightBitsAndSaysWhere) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, RefusesToStoreNotANumberInEightBitsAndSaysWhere) {
   Image image(3, 2);
   image.at(2, 1)[1] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THAT([&] { write_image(folder / "a.png", image); },
+  EXPECT_THAT([&] { write_image(folder_ / "a.png", image); },
               ThrowsMessage<DataError>(AllOf(HasSubstr("2,1"), HasSubstr(".exr"))));
-  EXPECT_EQ(folder.count_files(), 0U);
+  EXPECT_EQ(folder_.count_files(), 0U);
 }
 
-TEST(ImageFile, RoundsColorsOfRadianceFilesToTheNearestStep) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, RoundsColorsOfRadianceFilesToTheNearestStep) {
   Image image(2, 1);
   image.pixels = {1,           0.9999F, 0.503F, 1,   // steps of 1/128
                   0.99999994F, 0.25F,   0,      1};  // too close to 1 for steps of 1/256
-  write_image(folder / "a.hdr", image);
-  const Image read = read_image(folder / "a.hdr");
+  write_image(folder_ / "a.hdr", image);
+  const Image read = read_image(folder_ / "a.hdr");
   for (std::size_t i = 0; i < 8; ++i) {
     if (i % 4 == 3) continue;
     EXPECT_NEAR(read.pixels[i], image.pixels[i], 0.5 / 128) << i;
   }
 }
 
-TEST(ImageFile, RefusesLightThatRadianceFilesCannotHoldAndSaysWhere) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, RefusesLightThatRadianceFilesCannotHoldAndSaysWhere) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   for (const float light : {-1.0F, infinity, std::numeric_limits<float>::quiet_NaN(), 3e38F}) {
     Image image(3, 2);
     image.at(2, 1)[1] = light;
-    EXPECT_THAT([&] { write_image(folder / "a.hdr", image); },
+    EXPECT_THAT([&] { write_image(folder_ / "a.hdr", image); },
                 ThrowsMessage<DataError>(AllOf(HasSubstr("2,1"), HasSubstr(".exr"))));
   }
-  EXPECT_EQ(folder.count_files(), 0U);
+  EXPECT_EQ(folder_.count_files(), 0U);
 }
 
 // The value of a tag with one short number, in a little-endian TIFF file; none where it is absent.
@@ -200,127 +196,113 @@ std::optional<int> short_tag(const std::string& file, int wanted) {
 }
 
 // Which tifffile cannot undo without more libraries, and others not at all.
-TEST(ImageFile, PredictsNoValuesOfTiffFiles) {
-  const TemporaryFolder folder;
-  write_image(folder / "a.tif", ramp(70, 130, 3));
-  const std::string file = read_text(folder / "a.tif");
+TEST_F(ImageFile, PredictsNoValuesOfTiffFiles) {
+  write_image(folder_ / "a.tif", ramp(70, 130, 3));
+  const std::string file = read_text(folder_ / "a.tif");
   ASSERT_EQ(file.substr(0, 4), std::string("II*\0", 4));
   constexpr int compression = 259, predictor = 317, sample_format = 339;
   EXPECT_EQ(short_tag(file, compression), 8);
   EXPECT_EQ(short_tag(file, predictor).value_or(1), 1);
   EXPECT_TRUE(short_tag(file, sample_format).has_value());
-  EXPECT_EQ(read_image(folder / "a.tif").pixels, ramp(70, 130, 3).pixels);
+  EXPECT_EQ(read_image(folder_ / "a.tif").pixels, ramp(70, 130, 3).pixels);
 }
 
-TEST(ImageFile, KeepsMetadataInExr) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, KeepsMetadataInExr) {
   const std::string scene = "[image]\nwidth = 3\n";
-  write_image(folder / "a.exr", Image(2, 2), {1, false, {{"splotchcl:scene", scene}}});
-  const ImageFileInfo info = read_image_info(folder / "a.exr");
+  write_image(folder_ / "a.exr", Image(2, 2), {1, false, {{"splotchcl:scene", scene}}});
+  const ImageFileInfo info = read_image_info(folder_ / "a.exr");
   EXPECT_EQ(info.metadata.at("splotchcl:scene"), scene);
   EXPECT_TRUE(info.has_alpha);
 }
 
-TEST(ImageFile, WritesTheSameBytesForTheSamePicture) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, WritesTheSameBytesForTheSamePicture) {
   for (const std::string ending : {".png", ".exr", ".tif", ".jpg"}) {
-    write_image(folder / ("a" + ending), ramp(20, 20, 1));
-    write_image(folder / ("b" + ending), ramp(20, 20, 1));
-    EXPECT_EQ(read_text(folder / ("a" + ending)), read_text(folder / ("b" + ending))) << ending;
+    write_image(folder_ / ("a" + ending), ramp(20, 20, 1));
+    write_image(folder_ / ("b" + ending), ramp(20, 20, 1));
+    EXPECT_EQ(read_text(folder_ / ("a" + ending)), read_text(folder_ / ("b" + ending))) << ending;
   }
 }
 
-TEST(ImageFile, ReplacesAnOlderPicture) {
-  const TemporaryFolder folder;
-  write_image(folder / "a.png", Image(2, 2));
-  write_image(folder / "a.png", Image(5, 4));
-  EXPECT_EQ(read_image(folder / "a.png").width, 5);
-  EXPECT_EQ(folder.count_files(), 1U);
+TEST_F(ImageFile, ReplacesAnOlderPicture) {
+  write_image(folder_ / "a.png", Image(2, 2));
+  write_image(folder_ / "a.png", Image(5, 4));
+  EXPECT_EQ(read_image(folder_ / "a.png").width, 5);
+  EXPECT_EQ(folder_.count_files(), 1U);
 }
 
-TEST(ImageFile, ReadsGrayAsEqualRedGreenAndBlue) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "gray.pgm") << "P2\n2 1\n255\n51 255\n";
-  const Image image = read_image(folder / "gray.pgm");
+TEST_F(ImageFile, ReadsGrayAsEqualRedGreenAndBlue) {
+  std::ofstream(folder_ / "gray.pgm") << "P2\n2 1\n255\n51 255\n";
+  const Image image = read_image(folder_ / "gray.pgm");
   EXPECT_FLOAT_EQ(image.at(0, 0)[0], 0.2F);
   EXPECT_FLOAT_EQ(image.at(0, 0)[1], 0.2F);
   EXPECT_FLOAT_EQ(image.at(0, 0)[2], 0.2F);
   EXPECT_EQ(image.at(1, 0)[3], 1);
 }
 
-TEST(ImageFile, RefusesAnEndingThatNamesNoFormatAndListsThoseThatDo) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, RefusesAnEndingThatNamesNoFormatAndListsThoseThatDo) {
   for (const std::string name : {"picture.xyz", "picture", "picture.null", "picture.mp4"}) {
-    EXPECT_THAT([&] { check_image_path(folder / name); },
+    EXPECT_THAT([&] { check_image_path(folder_ / name); },
                 ThrowsMessage<UsageError>(AllOf(HasSubstr(name), HasSubstr(".png"))))
         << name;
   }
 }
 
-TEST(ImageFile, NoticesAMissingFolder) {
-  const TemporaryFolder folder;
-  EXPECT_THAT([&] { check_image_path(folder / "nowhere/a.png"); },
+TEST_F(ImageFile, NoticesAMissingFolder) {
+  EXPECT_THAT([&] { check_image_path(folder_ / "nowhere/a.png"); },
               ThrowsMessage<DataError>(HasSubstr("nowhere")));
 }
 
-TEST(ImageFile, NoticesAFolderThatIsNotWritable) {
+TEST_F(ImageFile, NoticesAFolderThatIsNotWritable) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
-  const TemporaryFolder folder;
   std::filesystem::permissions(
-      folder.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
-  EXPECT_THAT([&] { check_image_path(folder / "a.png"); },
+      folder_.path(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+  EXPECT_THAT([&] { check_image_path(folder_ / "a.png"); },
               ThrowsMessage<DataError>(HasSubstr("denied")));
 }
 
-TEST(ImageFile, NoticesThatThePathIsAFolder) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder / "a.png");
-  EXPECT_THROW(check_image_path(folder / "a.png"), DataError);
+TEST_F(ImageFile, NoticesThatThePathIsAFolder) {
+  std::filesystem::create_directory(folder_ / "a.png");
+  EXPECT_THROW(check_image_path(folder_ / "a.png"), DataError);
 }
 
-TEST(ImageFile, LeavesNothingBehindWhenTheDiskIsFull) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, LeavesNothingBehindWhenTheDiskIsFull) {
   for (const std::string name : {"a.png", "a.exr", "a.jpg", "a.tif"}) {
     const FileSizeLimit limit(100);
-    EXPECT_THAT([&] { write_image(folder / name, ramp(50, 50, 1)); },
+    EXPECT_THAT([&] { write_image(folder_ / name, ramp(50, 50, 1)); },
                 ThrowsMessage<DataError>(HasSubstr(name)));
-    EXPECT_EQ(folder.count_files(), 0U) << name;
+    EXPECT_EQ(folder_.count_files(), 0U) << name;
   }
 }
 
-TEST(ImageFile, KeepsTheOlderPictureWhenTheDiskIsFull) {
-  const TemporaryFolder folder;
-  write_image(folder / "a.png", Image(2, 2));
+TEST_F(ImageFile, KeepsTheOlderPictureWhenTheDiskIsFull) {
+  write_image(folder_ / "a.png", Image(2, 2));
   {
     const FileSizeLimit limit(100);
-    EXPECT_THROW(write_image(folder / "a.png", ramp(50, 50, 1)), DataError);
+    EXPECT_THROW(write_image(folder_ / "a.png", ramp(50, 50, 1)), DataError);
   }
-  EXPECT_EQ(read_image(folder / "a.png").width, 2);
+  EXPECT_EQ(read_image(folder_ / "a.png").width, 2);
 }
 
-TEST(ImageFile, RefusesPicturesTooLargeForTheirFormat) {
-  const TemporaryFolder folder;
-  EXPECT_THAT([&] { write_image(folder / "a.jpg", Image(70000, 1)); },
+TEST_F(ImageFile, RefusesPicturesTooLargeForTheirFormat) {
+  EXPECT_THAT([&] { write_image(folder_ / "a.jpg", Image(70000, 1)); },
               ThrowsMessage<UsageError>(HasSubstr("70000x1")));
-  EXPECT_EQ(folder.count_files(), 0U);
+  EXPECT_EQ(folder_.count_files(), 0U);
 }
 
-TEST(ImageFile, RefusesToReadWhatIsNoPicture) {
-  const TemporaryFolder folder;
-  std::ofstream(folder / "a.png") << "this is text";
-  EXPECT_THAT([&] { (void)read_image(folder / "a.png"); },
+TEST_F(ImageFile, RefusesToReadWhatIsNoPicture) {
+  std::ofstream(folder_ / "a.png") << "this is text";
+  EXPECT_THAT([&] { (void)read_image(folder_ / "a.png"); },
               ThrowsMessage<DataError>(HasSubstr("a.png")));
-  EXPECT_THAT([&] { (void)read_image(folder / "missing.png"); },
+  EXPECT_THAT([&] { (void)read_image(folder_ / "missing.png"); },
               ThrowsMessage<DataError>(HasSubstr("missing.png")));
 }
 
-TEST(ImageFile, RefusesATruncatedPicture) {
-  const TemporaryFolder folder;
+TEST_F(ImageFile, RefusesATruncatedPicture) {
   for (const std::string name : {"a.png", "a.exr", "a.tif", "a.jpg"}) {
-    write_image(folder / name, ramp(200, 200, 1));
-    std::filesystem::resize_file(folder / name, std::filesystem::file_size(folder / name) / 2);
+    write_image(folder_ / name, ramp(200, 200, 1));
+    std::filesystem::resize_file(folder_ / name, std::filesystem::file_size(folder_ / name) / 2);
     const WithoutLeakDetection libpng_jumps_over_destructors;
-    EXPECT_THROW((void)read_image(folder / name), DataError) << name;
+    EXPECT_THROW((void)read_image(folder_ / name), DataError) << name;
   }
 }
 

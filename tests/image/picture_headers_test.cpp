@@ -224,46 +224,43 @@ void expect_refused(const TemporaryFolder& folder, const std::string& bytes,
               ThrowsMessage<DataError>(HasSubstr(reason)));
 }
 
-TEST(ExrHeader, OfAWholeFileIsReadByTheLibrary) {
-  const TemporaryFolder folder;
-  (void)picture_bytes(folder);
-  EXPECT_EQ(read_image_info(folder / "whole.exr").metadata.at("splotchcl:scene"), "a scene");
+using ExrHeader = FolderTest;
+
+TEST_F(ExrHeader, OfAWholeFileIsReadByTheLibrary) {
+  (void)picture_bytes(folder_);
+  EXPECT_EQ(read_image_info(folder_ / "whole.exr").metadata.at("splotchcl:scene"), "a scene");
 }
 
-TEST(ExrHeader, ThatClaimsALongerTextThanTheFileIsRefused) {
-  const TemporaryFolder folder;
-  std::string file = picture_bytes(folder);
+TEST_F(ExrHeader, ThatClaimsALongerTextThanTheFileIsRefused) {
+  std::string file = picture_bytes(folder_);
   const std::size_t place = length_place(file, "splotchcl:scene", "string");
   file.replace(place, 4, bytes_of_number(0x676B2000));
-  expect_refused(folder, file, "it claims 1735073792 bytes for \"splotchcl:scene\"");
+  expect_refused(folder_, file, "it claims 1735073792 bytes for \"splotchcl:scene\"");
   file.replace(place, 4, bytes_of_number(0xFFFFFFFF));
-  expect_refused(folder, file, "it claims -1 bytes");
+  expect_refused(folder_, file, "it claims -1 bytes");
 }
 
-TEST(ExrHeader, ThatClaimsMoreLinesThanTheFileHasRoomForIsRefused) {
-  const TemporaryFolder folder;
-  std::string file = picture_bytes(folder);
+TEST_F(ExrHeader, ThatClaimsMoreLinesThanTheFileHasRoomForIsRefused) {
+  std::string file = picture_bytes(folder_);
   const std::size_t window = length_place(file, "dataWindow", "box2i") + 4;
   file.replace(window + 12, 4, bytes_of_number(0x40000000));
-  expect_refused(folder, file, "it claims 1073741825 lines");
+  expect_refused(folder_, file, "it claims 1073741825 lines");
 }
 
-TEST(ExrHeader, WithAPreviewOfAnotherSizeIsRefused) {
-  const TemporaryFolder folder;
-  std::string file = picture_bytes(folder);
+TEST_F(ExrHeader, WithAPreviewOfAnotherSizeIsRefused) {
+  std::string file = picture_bytes(folder_);
   const std::string preview = std::string("preview") + '\0' + "preview" + '\0' +
                               bytes_of_number(12) + bytes_of_number(30000) +
                               bytes_of_number(30000) + "abcd";
   file.insert(8, preview);
-  expect_refused(folder, file, "a preview of 30000x30000 pixels in 12 bytes");
+  expect_refused(folder_, file, "a preview of 30000x30000 pixels in 12 bytes");
 }
 
-TEST(ExrHeader, CutAtAnyByteIsRefused) {
-  const TemporaryFolder folder;
-  const std::string file = picture_bytes(folder);
+TEST_F(ExrHeader, CutAtAnyByteIsRefused) {
+  const std::string file = picture_bytes(folder_);
   const std::size_t header_end = length_place(file, "splotchcl:scene", "string");
   for (std::size_t bytes = 8; bytes < header_end; ++bytes) {
-    const auto path = folder / "cut.exr";
+    const auto path = folder_ / "cut.exr";
     std::ofstream(path, std::ios::binary | std::ios::trunc) << file.substr(0, bytes);
     EXPECT_THROW((void)read_image_info(path), DataError) << bytes;
   }

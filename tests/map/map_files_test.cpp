@@ -34,25 +34,25 @@ void write(const std::filesystem::path& path, const Map& map) {
   write_map(path, map, map_scene(), {}, {{"splotchcl:scene", "[map]\nview = \"xy\""}});
 }
 
-TEST(MapFiles, OnlyFiguresHaveNotesOnWhatTheyDoNotShow) {
-  const test::TemporaryFolder folder;
+using MapFiles = test::FolderTest;
+
+TEST_F(MapFiles, OnlyFiguresHaveNotesOnWhatTheyDoNotShow) {
   Map map = small_map();
   map.width = map.height = 200;
   map.values.assign(40000, 1);
   map.values[0] = -1;  // no logarithm
   map.effective_particles.clear();
   for (const char* name : {"a.fits", "a.hdf5", "a.npy", "a.exr"})
-    EXPECT_TRUE(write_map(folder / name, map, map_scene(), {}, {}).empty()) << name;
+    EXPECT_TRUE(write_map(folder_ / name, map, map_scene(), {}, {}).empty()) << name;
   for (const char* name : {"a.png", "a.pdf"})
-    EXPECT_EQ(write_map(folder / name, map, map_scene(), {}, {}).size(), 1U) << name;
+    EXPECT_EQ(write_map(folder_ / name, map, map_scene(), {}, {}).size(), 1U) << name;
 }
 
-TEST(MapFiles, HoldFitsImagesWithTheLowestRowFirst) {
-  const test::TemporaryFolder folder;
-  write(folder / "a.fits", small_map());
+TEST_F(MapFiles, HoldFitsImagesWithTheLowestRowFirst) {
+  write(folder_ / "a.fits", small_map());
   fitsfile* file = nullptr;
   int status = 0;
-  fits_open_diskfile(&file, (folder / "a.fits").c_str(), READONLY, &status);
+  fits_open_diskfile(&file, (folder_ / "a.fits").c_str(), READONLY, &status);
   std::vector<float> values(6);
   char unit[FLEN_VALUE] = "", axis[FLEN_VALUE] = "";
   double place = 0, pixel = 0;
@@ -75,7 +75,7 @@ TEST(MapFiles, HoldFitsImagesWithTheLowestRowFirst) {
   EXPECT_EQ(hdus, 2);
 }
 
-TEST(MapFiles, HoldNumPyArraysWithTheLowestRowFirst) {
+TEST_F(MapFiles, HoldNumPyArraysWithTheLowestRowFirst) {
   const std::vector<unsigned char> bytes = encode_npy(small_map());
   const std::string text(bytes.begin(), bytes.end());
   EXPECT_EQ(text.substr(1, 5), "NUMPY");
@@ -90,58 +90,53 @@ TEST(MapFiles, HoldNumPyArraysWithTheLowestRowFirst) {
   EXPECT_EQ(seventh, 40);
 }
 
-TEST(MapFiles, HoldHdf5AndPicturesToo) {
-  const test::TemporaryFolder folder;
+TEST_F(MapFiles, HoldHdf5AndPicturesToo) {
   Map map = small_map();
-  write(folder / "a.hdf5", map);
+  write(folder_ / "a.hdf5", map);
   map.values[5] = 6;
-  write(folder / "a.exr", map);
-  EXPECT_GT(std::filesystem::file_size(folder / "a.hdf5"), 48U);
-  EXPECT_EQ(read_image(folder / "a.exr").at(1, 0)[0], 2);
-  EXPECT_EQ(read_image(folder / "a.exr").at(1, 0)[1], 20);
+  write(folder_ / "a.exr", map);
+  EXPECT_GT(std::filesystem::file_size(folder_ / "a.hdf5"), 48U);
+  EXPECT_EQ(read_image(folder_ / "a.exr").at(1, 0)[0], 2);
+  EXPECT_EQ(read_image(folder_ / "a.exr").at(1, 0)[1], 20);
 }
 
-TEST(MapFiles, RefuseEndingsThatHoldLight) {
-  const test::TemporaryFolder folder;
-  EXPECT_THROW(check_map_path(folder / "a.tif"), UsageError);
+TEST_F(MapFiles, RefuseEndingsThatHoldLight) {
+  EXPECT_THROW(check_map_path(folder_ / "a.tif"), UsageError);
 }
 
-TEST(MapFiles, NameTheEndingsOfMapsWhereOneIsUnknown) {
-  const test::TemporaryFolder folder;
+TEST_F(MapFiles, NameTheEndingsOfMapsWhereOneIsUnknown) {
   for (const char* name : {"a.txt", "a"}) {
-    EXPECT_THAT([&] { check_map_path(folder / name); },
+    EXPECT_THAT([&] { check_map_path(folder_ / name); },
                 ThrowsMessage<UsageError>(
                     AllOf(HasSubstr(".fits, .hdf5, .npy or .exr"), HasSubstr(".pdf"))));
   }
 }
 
 // The program of FITS' own support office looks at every card and sum.
-TEST(MapFiles, PassFitsverify) {
+TEST_F(MapFiles, PassFitsverify) {
   if (std::system("fitsverify -q > /dev/null 2>&1") != 0 &&
       std::system("command -v fitsverify > /dev/null") != 0) {
     GTEST_SKIP() << "fitsverify is not installed; scripts/setup does that";
   }
-  const test::TemporaryFolder folder;
   Map map = small_map();
-  write(folder / "lengths.fits", map);
+  write(folder_ / "lengths.fits", map);
   map.unit = "1e10 M_sun Mpc^-2 a^-2";
   map.quantity = std::string(100, 'q');
   map.sky = SkyPlace{187.5, 12.25, 1e-3};
-  write(folder / "sky.fits", map);
+  write(folder_ / "sky.fits", map);
   for (const char* const name : {"lengths.fits", "sky.fits"}) {
-    const std::string command = "fitsverify -q " + (folder / name).string() + " > /dev/null";
+    const std::string command = "fitsverify -q " + (folder_ / name).string() + " > /dev/null";
     EXPECT_EQ(std::system(command.c_str()), 0) << name;
   }
 }
 
-TEST(MapFiles, HaveCoordinatesOnTheSkyAndLengthsBeside) {
-  const test::TemporaryFolder folder;
+TEST_F(MapFiles, HaveCoordinatesOnTheSkyAndLengthsBeside) {
   Map map = small_map();
   map.sky = SkyPlace{187.5, 12.25, 1e-3};
-  write(folder / "a.fits", map);
+  write(folder_ / "a.fits", map);
   fitsfile* file = nullptr;
   int status = 0;
-  fits_open_diskfile(&file, (folder / "a.fits").c_str(), READONLY, &status);
+  fits_open_diskfile(&file, (folder_ / "a.fits").c_str(), READONLY, &status);
   char axis[FLEN_VALUE] = "", unit[FLEN_VALUE] = "";
   double east = 0, declination = 0, length = 0;
   fits_read_key(file, TSTRING, "CTYPE1", axis, nullptr, &status);

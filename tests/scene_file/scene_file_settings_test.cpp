@@ -103,10 +103,14 @@ TEST_P(SetScene, HasTheValuesOfItsSettings) {
   std::vector<std::string> settings, expected;
   bool is_suggested = false;
   for (const std::string& part : GetParam().expected) {
-    is_suggested |= part == "as suggested";
-    if (part.rfind("with ", 0) == 0) settings.push_back(part.substr(5));
-    if (part.find(" is ") != std::string::npos || part.rfind("refused ", 0) == 0)
+    if (part == "as suggested") {
+      is_suggested = true;
+    } else if (part.rfind("with ", 0) == 0) {
+      settings.push_back(part.substr(5));
+    } else {
+      ASSERT_TRUE(part.find(" is ") != std::string::npos || part.rfind("refused ", 0) == 0) << part;
       expected.push_back(part);
+    }
   }
   ASSERT_FALSE(expected.empty());
   Scene scene;

@@ -124,3 +124,14 @@ def browser():
     made.set_script_timeout(PATIENCE)
     yield made
     made.quit()
+
+
+@pytest.fixture
+def page(browser, view):
+    from page import Page
+
+    made = Page(browser, view())
+    made.errors()
+    yield made
+    assert made.errors() == []
+    browser.get("about:blank")

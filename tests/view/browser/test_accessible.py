@@ -8,7 +8,7 @@ import pytest
 
 Select = pytest.importorskip("selenium.webdriver.support.ui", reason="python3-selenium is missing").Select
 
-from test_page import Page
+from page import Page
 
 
 @pytest.fixture(scope="module")
