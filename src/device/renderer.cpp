@@ -35,7 +35,7 @@ void note_check(const Certificate& certificate, FrameCheck& check) {
 
 // What is known of splats once they are drawn.
 struct DrawnSplats {
-  CollectedSplats collected;
+  ReadSplats read;
   DrawCounts counts;
 };
 
@@ -225,7 +225,8 @@ FramePlan Renderer::State::Rendering::try_out(const FramePlan& plan) {
     FramePlan stricter = tried;
     stricter.shares.promise *= part_of_promise;
     Certificate certificate;
-    if (is_first()) certificate = certify(splats.collected, image, part, stricter, edge_blocks);
+    if (is_first())
+      certificate = certify(splats.read.gathered(), image, part, stricter, edge_blocks);
     share(certificate);
     if (!certificate.keeps_promise())
       tried = refine_plan(frame_, tried, with_all_octaves(certificate.needs));
@@ -240,8 +241,9 @@ Certificate Renderer::State::Rendering::check(const Frame& frame, const FramePla
   const double before = thread_seconds();
   Certificate certificate;
   if (is_first()) {
-    certificate = plan.is_extended() ? certify_extended(splats.collected, image, frame, plan)
-                                     : certify(splats.collected, image, frame, plan);
+    const CollectedSplats collected = splats.read.gathered();
+    certificate = plan.is_extended() ? certify_extended(collected, image, frame, plan)
+                                     : certify(collected, image, frame, plan);
   }
   share(certificate);
   check_seconds_ += thread_seconds() - before;
@@ -343,7 +345,7 @@ Image Renderer::State::Rendering::draw_on_device(const Frame& frame, const Frame
   if (of_frame) work_ = of_frame->work;
   device.queue.finish();
   const double before = thread_seconds();
-  if (splats.counts.too_sharp == 0 && is_first()) splats.collected = pipeline.collected();
+  if (splats.counts.too_sharp == 0 && is_first()) splats.read = pipeline.read_collected();
   check_seconds_ += thread_seconds() - before;
   take_account(built_before);
   return image;

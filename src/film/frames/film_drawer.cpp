@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -69,15 +68,11 @@ std::string timecode(int frame, double frames_per_second) {
                      seconds % 60, frame % rate);
 }
 
-// How many frames may wait for their files: their pictures lie in memory, and writing one takes a
-// part of the time that drawing takes on a processor, but several times as long as on a GPU.
-std::size_t most_written(const std::vector<Picture>& pictures) {
-  std::uint64_t bytes = 1;
+std::uint64_t bytes_of(const std::vector<Picture>& pictures) {
+  std::uint64_t bytes = 0;
   for (const Picture& picture : pictures)
     bytes += (picture.image.pixels.size() + picture.light.pixels.size()) * sizeof(float);
-  constexpr std::uint64_t part_of_memory = 16, most = 8;
-  return static_cast<std::size_t>(
-      std::clamp<std::uint64_t>(available_memory() / part_of_memory / bytes, 1, most));
+  return bytes;
 }
 
 }  // namespace
@@ -123,7 +118,9 @@ std::pair<int, RenderStats> FilmDrawer::end(
 
 void FilmDrawer::write(int frame, const Scene& scene, std::vector<Picture> pictures,
                        const std::filesystem::path& output) {
-  while (writing_.size() >= most_written(pictures))
+  // To write one takes several times as long as to draw it on a GPU.
+  const std::size_t most = held_within_memory(bytes_of(pictures));
+  while (writing_.size() >= most)
     end_writing();
   if (output.empty()) return;
   std::map<std::string, std::string> metadata = {{"splotchcl:frame", std::to_string(frame)}};

@@ -13,6 +13,8 @@
 #include "film/movie/film_layout.h"
 #include "film/movie/frame_files.h"
 #include "film/movie/numbered_files.h"
+#include "parallel/available_memory.h"
+#include "parallel/ordered_tasks.h"
 #include "pictures/other_scenes.h"
 #include "ranks/exchange.h"
 #include "splotchcl/error.h"
@@ -316,13 +318,24 @@ class Film {
     for (const PictureSize& size : sizes_of(start_)) {
       files_.remove_unfinished_film(size.suffix);
       Encoder encoder(files_.film(size.suffix), start_.movie, size.width, size.height, layout);
+      const int bits = frame_bits(options_.output, start_.movie);
+      const std::uint64_t bytes = std::uint64_t{4 * sizeof(float)} *
+                                  static_cast<std::uint64_t>(size.width) *
+                                  static_cast<std::uint64_t>(size.height);
+      const std::size_t most = held_within_memory(bytes);
+      OrderedTasks<std::vector<std::uint8_t>> reading;
+      std::size_t next = 0;
       for (std::size_t i = 0; i < frames_.size(); ++i) {
+        for (; next < frames_.size() && reading.size() < most; ++next) {
+          reading.begin([file = files_.picture(frames_[next], size.suffix), bits] {
+            return read_bytes(file, bits);
+          });
+        }
         if (report_.progress) {
           report_.progress("joining the frames",
                            static_cast<double>(i) / static_cast<double>(frames_.size()));
         }
-        encoder.add(read_bytes(files_.picture(frames_[i], size.suffix),
-                               frame_bits(options_.output, start_.movie)));
+        encoder.add(reading.take());
       }
       encoder.finish();
     }
