@@ -1,5 +1,6 @@
 #include "parallel/ordered_tasks.h"
 
+#include <chrono>
 #include <stdexcept>
 #include <string>
 
@@ -13,8 +14,8 @@ TEST(OrderedTasks, GiveResultsInTheOrderInWhichTheyWereBegun) {
   std::promise<void> second_has_run;
   OrderedTasks<std::string> tasks;
   tasks.begin([&] {
-    second_has_run.get_future().wait();
-    return std::string("first");
+    const auto wait = second_has_run.get_future().wait_for(std::chrono::minutes(2));
+    return std::string(wait == std::future_status::ready ? "first" : "first, alone");
   });
   tasks.begin([&] {
     second_has_run.set_value();
