@@ -1,16 +1,21 @@
 // What the second frame of the same data costs when the camera has moved: it reads nothing, and
 // blocks of particles that lie out of view are not projected. Beside it the frame alone, and the
-// first one of a process. Pictures are not written.
+// first one of a process; and what a picture costs as a file.
+#include <unistd.h>
+
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "arguments.h"
 #include "machine.h"
 #include "measure.h"
 #include "splotchcl/error.h"
+#include "splotchcl/image_file.h"
 #include "splotchcl/load.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl/scene_file.h"
@@ -67,6 +72,7 @@ struct Measured {
   Runs second, alone;  // loaded from memory and drawn with boxes; drawn without
   double blocks = 0;
   RenderStats stats;  // of a second frame
+  Image image;
 };
 
 RendererOptions options_for(const Arguments& arguments, bool columns_stay) {
@@ -93,7 +99,7 @@ Measured measure_view(const View& view, const Arguments& arguments, int runs) {
     const Scene moved = scene_of(view, 2 + run, arguments);
     const Stopwatch second;
     const Frame frame = load(moved, *snapshot);
-    film.render(frame);
+    measured.image = film.render(frame);
     measured.second.add(second.elapsed());
     const Stopwatch of_frame;
     alone.render(frame);
@@ -104,6 +110,28 @@ Measured measure_view(const View& view, const Arguments& arguments, int runs) {
   return measured;
 }
 
+// Written as a film's frames are, and read again as they are joined.
+void print_cost_of_files(const Image& image, int runs) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                     ("bench_films_" + std::to_string(::getpid()) + ".png");
+  ImageFileOptions options;
+  options.dithers = true;
+  Runs writing, reading;
+  for (int run = 0; run < runs; ++run) {
+    const Stopwatch of_writing;
+    write_image(file, image, options);
+    writing.add(of_writing.elapsed());
+    const Stopwatch of_reading;
+    read_image(file);
+    reading.add(of_reading.elapsed());
+  }
+  std::filesystem::remove(file);
+  std::printf("PNG of %dx%d: written in %s CPU s (%s s), read in %s CPU s\n", image.width,
+              image.height, fixed(writing.median().cpu_seconds, 3).c_str(),
+              fixed(writing.median().wall_seconds, 3).c_str(),
+              fixed(reading.median().cpu_seconds, 3).c_str());
+}
+
 void run(const Arguments& arguments) {
   if (!arguments.has("snapshot")) {
     throw UsageError("found no snapshot, expected --snapshot FILE:\n" + arguments.help());
@@ -112,8 +140,9 @@ void run(const Arguments& arguments) {
   std::printf("%s\n\n", describe(describe_machine(arguments.text("device", ""))).c_str());
   Table table({"camera", "particles drawn", "blocks left out", "blocks", "first frame, CPU s",
                "second, CPU s", "alone, CPU s", "second over alone", "second, s", "alone, s"});
+  Image image;
   for (const View& view : views) {
-    const Measured measured = measure_view(view, arguments, runs);
+    Measured measured = measure_view(view, arguments, runs);
     const Cost second = measured.second.median(), alone = measured.alone.median();
     const RenderStats& stats = measured.stats;
     table.add({view.name, std::to_string(stats.drawn_particles),
@@ -121,8 +150,10 @@ void run(const Arguments& arguments) {
                fixed(measured.first.cpu_seconds, 3), fixed(second.cpu_seconds, 3),
                fixed(alone.cpu_seconds, 3), fixed(second.cpu_seconds / alone.cpu_seconds, 2),
                fixed(second.wall_seconds, 3), fixed(alone.wall_seconds, 3)});
+    if (image.pixels.empty()) image = std::move(measured.image);
   }
   std::printf("%s\nmedians of %d runs\n", table.text().c_str(), runs);
+  print_cost_of_files(image, runs);
   if (arguments.has("csv")) table.write_csv(arguments.text("csv", ""));
 }
 

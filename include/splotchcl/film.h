@@ -34,8 +34,9 @@ struct FilmOptions {
   TreeUse tree = TreeUse::automatic;
   std::string frames;  // FIRST:END:STEP; empty: all of the path
   std::string part;    // K/N, the K-th of N runs of frames; empty: all
-  // A file that the caller writes in the end, if any: refused where it is read, or is the film's.
-  std::optional<std::filesystem::path> stats;
+  // Files that the caller writes in the end, if any: refused where they are read, or are the
+  // film's.
+  std::optional<std::filesystem::path> stats, timeline;
   bool as_displayed = false;  // numbered files of floats hold what a display shows
   bool only_join = false;     // makes the film of frames that are drawn already
   // As in FrameDrawerOptions: each frame is drawn by all ranks, which all call make_film. The first
@@ -48,11 +49,15 @@ struct FilmReport {
   std::function<void(const std::string&)> note;    // what the user should know, a line
   std::function<void(const std::string&)> status;  // what is being done
   std::function<void(const std::string& what, double fraction)> progress;
-  // Before each frame: its number, and how many of those to be drawn are done.
+  // Before each frame: its number, and how many were begun before it of those to be drawn. The one
+  // before may still be drawn.
   std::function<void(int frame, std::size_t done, std::size_t total)> frame;
   // After each frame that was drawn: its number and what it took.
   std::function<void(int frame, const RenderStats& stats)> drawn;
-  // Asked after each frame; true ends the film as an interruption does.
+  // After each frame that was drawn or written, what happened when: "load", those of RenderStats,
+  // "finish", "write".
+  std::function<void(int frame, const TimeSpan& span)> span;
+  // Asked before and after each frame; true ends the film as an interruption does.
   std::function<bool()> is_stopped;
 };
 

@@ -71,7 +71,8 @@ struct DrawnFrame {
 // Draws the frames of scenes, on a device or with the oracle, always in the same way: loads what
 // the scene uses, draws its views, finishes the pictures, and keeps account of what is to be
 // told. Everything that draws but maps does so through this class. Keeps compiled kernels and
-// buffers between frames. Not for use from several threads at once; several FrameDrawers are.
+// buffers between frames. Several threads may draw, each its own scenes and frames, and without
+// ranks, as Renderer says.
 class FrameDrawer {
  public:
   // Throws DeviceError where there is no device, UsageError where none has such a name.
@@ -94,6 +95,10 @@ class FrameDrawer {
                   const std::vector<Moment>& moments = {});
   // For a frame of the scene that has been loaded already, with any crop.
   DrawnFrame draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot);
+  // For one of a film, with what is known to be told of it.
+  DrawnFrame draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                  OtherScenes& other_scenes, std::vector<std::string> notes,
+                  const std::vector<Moment>& moments = {});
 
  private:
   struct State;

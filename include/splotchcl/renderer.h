@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -81,6 +82,13 @@ struct StageTime {
   double seconds = 0;
 };
 
+// When a part of a frame's work began and ended, by the host's clock.
+struct TimeSpan {
+  std::string what;  // a stage, or the host's work: plan, draw (launching and reading), check, ...
+  bool is_on_device = false;
+  std::chrono::steady_clock::time_point begin, end;
+};
+
 // What one of several ranks did for a frame.
 struct ProcessStats {
   std::string host;
@@ -113,13 +121,17 @@ struct RenderStats {
   // the `host` for all else. Commands are timed by the device's clock, which runs on while a busy
   // machine lets them wait. Where kernels were compiled, `host` is too small.
   std::vector<StageTime> serial;
+  // Of each command of the device, whose clock is set by when commands were given to it, a few
+  // microseconds late; and of the host's parts. Each in the order in which they began.
+  std::vector<TimeSpan> spans;
   FrameCheck check;
   std::vector<ProcessStats> processes;  // by rank, the same at all; none where one process drew
   std::string note;                     // what the user should know of the device; empty: nothing
 };
 
 // Draws frames on one OpenCL device. Keeps compiled kernels and buffers between frames.
-// Throws DeviceError. Not for use from several threads at once; several Renderers are.
+// Throws DeviceError. Without ranks, several threads may call render(): the device draws one frame
+// at a time, while other frames are planned or checked, each by the thread that calls.
 class Renderer {
  public:
   explicit Renderer(const RendererOptions& options = {});
@@ -131,6 +143,9 @@ class Renderer {
   Image render(const Frame& frame);
   // The same with a plan that was made of this frame already (plan.h).
   Image render(const Frame& frame, const FramePlan& plan);
+  // The same, with what this frame took.
+  Image render(const Frame& frame, RenderStats& stats);
+  Image render(const Frame& frame, const FramePlan& plan, RenderStats& stats);
 
   // The plan with which render(frame) begins, for a frame whose particles are all here: looks at a
   // sample of them, on all cores or by the calling thread alone, and needs no device. Throws
@@ -138,7 +153,8 @@ class Renderer {
   static FramePlan first_plan(const Frame& frame, const PlanOptions& options,
                               bool on_all_cores = true);
 
-  const RenderStats& stats() const;  // of the last frame
+  // Of the last frame that was drawn without stats of its own; no other thread may draw one.
+  const RenderStats& stats() const;
 
  private:
   struct State;

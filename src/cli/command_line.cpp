@@ -237,6 +237,10 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
       "--test-frame", options->test_frame,
       wrapped("Draw, instead of the film, one picture that shows whether a dome shows all "
               "of its fisheye, upright and with what is in front in front"));
+  sub->add_option("--timeline", options->timeline,
+                  wrapped("Write when each part of each frame was read, drawn and written, as "
+                          "JSON that Perfetto shows"))
+      ->type_name("FILE");
   sub->add_option("--audio", options->audio, wrapped("Lay this file's sound under the film"))
       ->type_name("FILE");
   sub->add_flag("--join", options->join,

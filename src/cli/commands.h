@@ -93,6 +93,7 @@ struct MovieOptions : DrawOptions {
   std::optional<int> dome;  // its diameter in pixels
   bool test_frame = false;  // of the dome, in place of the film
   bool join = false;
+  std::optional<std::filesystem::path> timeline;
 };
 int run_movie(const MovieOptions& options, Console& console);
 

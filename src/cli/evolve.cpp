@@ -160,11 +160,15 @@ class Evolution {
         write_galaxy_snapshot(snapshots_->at(frame), *turned, time_of(frame));
       }
       if (drawer_) {
-        drawer_->draw(frame, scene_->scene(), *scene_->snapshot_at(turned), {},
-                      scene_->other_scenes(), pictures_->at(frame), [this] { inputs_.check(); });
+        drawer_->begin(drawer_->load(frame, scene_->scene(), scene_->snapshot_at(turned), {}),
+                       scene_->other_scenes());
+        end_frames(drawer_->may_go_on() ? 1 : 0);
       }
     }
-    if (drawer_) drawer_->finish();
+    if (drawer_) {
+      end_frames(0);
+      drawer_->finish();
+    }
     console_.done(part.empty()
                       ? "this part has no frames"
                       : fmt::format("frames {} to {} of {}, {:.4g} Myr in all", part.front(),
@@ -228,7 +232,8 @@ class Evolution {
     check_image_bits(pictures_->at(0), image.bits);
     FrameDrawerOptions of_drawer{options_.device, false, {}};
     of_drawer.light = light_of_file(pictures_->at(0));
-    drawer_.emplace(of_drawer, [this](const std::string& note) { console_.note(note); });
+    drawer_.emplace(of_drawer, FilmDrawer::Report{
+                                   [this](const std::string& note) { console_.note(note); }, {}});
     scene_->decide();
     drawer_->tell(scene_->notes());
     for (const int frame : frames_that_decide(options_.frames)) {
@@ -237,6 +242,12 @@ class Evolution {
       drawer_->decide_tone(frame, scene_->scene(), *scene_->snapshot_at(galaxy.at(time_of(frame))),
                            scene_->other_scenes());
     }
+  }
+
+  // All but so many of those that were begun last.
+  void end_frames(std::size_t left) {
+    while (drawer_->begun() > left)
+      drawer_->end([this](int frame) { return pictures_->at(frame); }, [this] { inputs_.check(); });
   }
 
   const EvolveOptions& options_;

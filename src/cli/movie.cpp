@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/draw_options.h"
 #include "cli/processes.h"
+#include "cli/timeline.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "film/dome/dome_test_frame.h"
@@ -67,7 +68,7 @@ std::string progress_bar(std::size_t done, std::size_t total) {
 // Tells the console, and has the signals while frames are drawn.
 class Watch {
  public:
-  explicit Watch(Console& console) : console_(console) {}
+  Watch(Console& console, bool keeps_spans) : console_(console), keeps_spans_(keeps_spans) {}
 
   FilmReport report() {
     FilmReport report;
@@ -85,12 +86,17 @@ class Watch {
     report.drawn = [this](int frame, const RenderStats& stats) {
       drawn_.push_back({frame, stats});
     };
+    if (keeps_spans_) {
+      report.span = [this](int frame, const TimeSpan& span) { spans_.push_back({frame, span}); };
+    }
     report.is_stopped = [] { return is_stopped != 0; };
     return report;
   }
 
   // The frames that were drawn.
   const std::vector<FilmFrameStats>& drawn() const { return drawn_; }
+  // What was done of them, and when.
+  const std::vector<FilmSpan>& spans() const { return spans_; }
 
  private:
   void show_frame(int frame, std::size_t done, std::size_t total) {
@@ -107,9 +113,11 @@ class Watch {
   }
 
   Console& console_;
+  const bool keeps_spans_;
   std::optional<StopSignals> signals_;
   Stopwatch drawing_;
   std::vector<FilmFrameStats> drawn_;
+  std::vector<FilmSpan> spans_;
 };
 
 // A master of planetariums, but for what the user says.
@@ -166,6 +174,7 @@ FilmOptions film_options(const MovieOptions& options, const std::shared_ptr<Comm
   film.ranks = ranks;
   film.scene = options.scene;
   film.stats = options.stats;
+  film.timeline = options.timeline;
   film.output = *options.output;
   film.settings = film_settings(options);
   film.target = target_of(options);
@@ -236,10 +245,11 @@ int run_movie(const MovieOptions& options, Console& console) {
   agree(ranks.get(), [&] {
     if (options.reference) expect_one_process(ranks.get(), "--reference");
     if (writes && options.stats) check_output_path(*options.stats);
+    if (writes && options.timeline) check_output_path(*options.timeline);
     if (writes && options.explain) explain_film(options, console);
   });
   if (!options.output) return 0;
-  Watch watch(console);
+  Watch watch(console, options.timeline.has_value());
   const FilmResult result = make_film(film_options(options, ranks), watch.report());
   if (writes && options.stats) {
     FilmStats stats;
@@ -250,6 +260,7 @@ int run_movie(const MovieOptions& options, Console& console) {
     stats.frames = watch.drawn();
     write_stats(*options.stats, stats);
   }
+  if (writes && options.timeline) write_timeline(*options.timeline, watch.spans());
   tell_result(result, options, console);
   return 0;
 }

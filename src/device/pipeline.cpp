@@ -43,13 +43,15 @@ Image Pipeline::draw() {
   return resolver_.resolve(std::move(planes));
 }
 
-CollectedSplats Pipeline::collected() const {
-  CollectedSplats collected = certifier_.collected();
+ReadSplats Pipeline::read_collected() const {
+  ReadSplats read;
+  read.cells = certifier_.read();
+  CollectedSplats& collected = read.others;
   if (context_.plan.slabs > 0) collected.of_slabs = resolver_.errors_of_slabs(slab_light_);
   if (needs_depths(context_.frame, context_.plan))
     collected.depths = resolver_.depths_of_blocks(deepest_);
   if (counts_.around > 0) collected.around = Surroundings::share_of_promise;
-  return collected;
+  return read;
 }
 
 std::vector<ParticleChunk> Pipeline::particle_chunks() const {

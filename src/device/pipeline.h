@@ -37,6 +37,18 @@ struct DrawCounts {
   std::uint64_t windows = 0;          // slices of an ordered frame that has no room in one piece
 };
 
+// What the check of a frame goes by, as the device has collected it.
+struct ReadSplats {
+  CollectedSplats others;  // without cells
+  CellsOfTiles cells;
+
+  CollectedSplats gathered() const {
+    CollectedSplats splats = others;
+    cells.gather(splats);
+    return splats;
+  }
+};
+
 // The stages of one frame, from particles to the picture. The renderer draws with it; tests
 // and benchmarks run its stages one by one.
 class Pipeline {
@@ -55,8 +67,10 @@ class Pipeline {
   // Of no use where counts() tells of particles that are too sharp: it ends early then. Of ranks
   // the first has the picture, the others a black one.
   Image draw();
-  // Of all splats that have been drawn; of ranks the first knows.
-  CollectedSplats collected() const;
+  // Of all splats that have been drawn; of ranks the first knows. What was read outlives the
+  // pipeline, and is gathered without the device.
+  ReadSplats read_collected() const;
+  CollectedSplats collected() const { return read_collected().gathered(); }
   const DrawCounts& counts() const { return counts_; }  // of what has been drawn, by all ranks
 
   const StageContext& context() const { return context_; }

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "system/system.h"
@@ -25,6 +26,13 @@ bool is_too_large_to_copy(std::uint64_t bytes) {
   // Less is never looked at: the answer is dear beside it.
   constexpr std::uint64_t small = 16u << 20;
   return bytes > small && bytes > available_memory() / 16;
+}
+
+std::size_t held_within_memory(std::uint64_t bytes_of_each) {
+  constexpr std::uint64_t part_of_memory = 16, most = 8;
+  const std::uint64_t fit =
+      available_memory() / part_of_memory / std::max<std::uint64_t>(1, bytes_of_each);
+  return static_cast<std::size_t>(std::clamp<std::uint64_t>(fit, 1, most));
 }
 
 }  // namespace splotchcl

@@ -79,12 +79,12 @@ class DeviceColumns : public ::testing::TestWithParam<bool> {
   std::vector<float> on_device(const Column& column) {
     Particles particles;
     particles.position = column;
-    store_.begin_frame();
+    const std::uint64_t number = store_.begin_frame();
     const ParticleBuffers buffers = store_.get(particles, {0, 0, 0});
     std::vector<float> values(column.size());
     device_.queue.enqueue_read_buffer(buffers.position, 0, values.size() * sizeof(float),
                                       values.data());
-    store_.end_frame();
+    store_.end_frame(number);
     return values;
   }
 

@@ -94,13 +94,13 @@ TEST_F(SerialTimes, HaveNothingOfStagesThatAllCoresShare) {
 
 void draw(DeviceContext& device, ParticleStore& particles, const Frame& frame) {
   const FramePlan plan = make_plan(frame);
-  particles.begin_frame();
+  const std::uint64_t number = particles.begin_frame();
   {
     Pipeline pipeline(device, particles, frame, plan);
     pipeline.draw();
     pipeline.collected();
   }
-  particles.end_frame();
+  particles.end_frame(number);
 }
 
 // After a first one, which makes them all, and a second, before which what lies idle may have to

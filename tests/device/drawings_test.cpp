@@ -1,3 +1,5 @@
+#include <thread>
+
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "scene/constants.h"
@@ -136,6 +138,30 @@ TEST_F(Drawings, InOrderAreOneWhereAllEndsAreKnownBefore) {
     renderer().render(frame, make_plan(frame));
     EXPECT_GT(renderer().stats().check.errors_of_promise.size(), 1U)
         << "a plan that does not know them, " << tolerance;
+  }
+}
+
+// By one renderer in several threads, of frames that are drawn again.
+TEST_F(Drawings, AreTheSameWhereThoseOfOtherFramesComeBetween) {
+  std::vector<Frame> frames;
+  for (const double tolerance : {1e-3, 3e-4, 1e-4, 3e-5, 1e-5})
+    frames.push_back(cluster_in_the_dark(tolerance));
+  std::vector<Image> images(frames.size());
+  std::vector<RenderStats> stats(frames.size());
+  std::vector<std::thread> threads;
+  Renderer shared;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    threads.emplace_back(
+        [&, i] { images[i] = shared.render(frames[i], make_plan(frames[i]), stats[i]); });
+  for (std::thread& thread : threads)
+    thread.join();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    RenderStats alone;
+    const Image expected = renderer().render(frames[i], make_plan(frames[i]), alone);
+    EXPECT_GT(alone.check.errors_of_promise.size(), 1U) << i;
+    EXPECT_EQ(images[i].pixels, expected.pixels) << i;
+    EXPECT_EQ(stats[i].check.errors_of_promise, alone.check.errors_of_promise) << i;
+    EXPECT_EQ(stats[i].tile_entries, alone.tile_entries) << i;
   }
 }
 

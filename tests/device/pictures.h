@@ -48,11 +48,11 @@ struct DrawnOnce {
 // Whatever a check of the picture would say.
 inline DrawnOnce draw_with_plan(DeviceContext& device, const Frame& frame, const FramePlan& plan) {
   ParticleStore particles(device);
-  particles.begin_frame();
+  const std::uint64_t number = particles.begin_frame();
   Pipeline pipeline(device, particles, frame, plan);
   Image image = pipeline.draw();
   device.queue.finish();
-  particles.end_frame();
+  particles.end_frame(number);
   return {std::move(image), pipeline.counts()};
 }
 

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "device/opencl/program_build.h"
-#include "device/opencl/program_text.h"
+#include "device/opencl/quirks.h"
 #include "device/opencl/shared_work.h"
 #include "device/pictures.h"
 #include "splotchcl/program_compiler.h"
@@ -48,7 +48,7 @@ class ProgramCompilers : public ::testing::Test {
  protected:
   void SetUp() override {
     DeviceContext device(choose_device(""));
-    if (!is_pocl(device.device) || device.device.compute_units() < 2 ||
+    if (!quirks_of(device.device).shares_binaries || device.device.compute_units() < 2 ||
         std::thread::hardware_concurrency() < 2)
       GTEST_SKIP() << "only through PoCL, on several cores";
   }

@@ -13,11 +13,11 @@ class ChangedArrays : public PictureTest, public testing::WithParamInterface<boo
  protected:
   // As renderers do, frame by frame.
   static Image draw_next(DeviceContext& device, ParticleStore& store, const Frame& frame) {
-    store.begin_frame();
+    const std::uint64_t number = store.begin_frame();
     const FramePlan plan = make_plan(frame);
     Image image = Pipeline(device, store, frame, plan).draw();
     device.queue.finish();
-    store.end_frame();
+    store.end_frame(number);
     return image;
   }
 };
@@ -45,10 +45,10 @@ TEST(ParticleStore, KeepsNoBufferOfAValueThatNoFrameAsksFor) {
   Particles particles;
   particles.count = 1;
   const auto draw_with = [&](float weight) {
-    store.begin_frame();
+    const std::uint64_t number = store.begin_frame();
     particles.weight = Column::uniform(weight);
     const compute::buffer buffer = store.get(particles, {0, 0, 1}).weight;
-    store.end_frame();
+    store.end_frame(number);
     return buffer;
   };
   const compute::buffer first = draw_with(5);

@@ -34,6 +34,27 @@ TEST(Threads, MakeRenderersAndDrawAtTheSameTime) {
   }
 }
 
+// The device draws one frame at a time; what is planned and checked meanwhile is another's.
+TEST(Threads, DrawWithOneRenderer) {
+  std::vector<Frame> frames;
+  for (int width = 40; width < 48; ++width)
+    frames.push_back(frame_of(width, 30, {random_clouds({60, 40, 30})}));
+  std::vector<Image> images(frames.size());
+  std::vector<RenderStats> stats(frames.size());
+  Renderer renderer;
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    threads.emplace_back([&, i] { images[i] = renderer.render(frames[i], stats[i]); });
+  for (std::thread& thread : threads)
+    thread.join();
+  Renderer alone;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_EQ(images[i].pixels, alone.render(frames[i]).pixels) << "of thread " << i;
+    EXPECT_EQ(stats[i].check.errors_of_promise, alone.stats().check.errors_of_promise) << i;
+    EXPECT_EQ(stats[i].tile_entries, alone.stats().tile_entries) << i;
+  }
+}
+
 // Work of any length on a queue of a DeviceContext.
 class Turning {
  public:

@@ -82,9 +82,9 @@ const BlockBoxes::Boxes& BlockBoxes::given(const std::shared_ptr<const ParticleB
   return given_.back().of_blocks;
 }
 
-void BlockBoxes::forget_all_but(std::uint64_t frame) {
-  given_.remove_if([frame](const Given& entry) { return entry.last_frame != frame; });
-  known_.remove_if([frame](const Known& entry) { return entry.last_frame != frame; });
+void BlockBoxes::forget_before(std::uint64_t frame) {
+  given_.remove_if([frame](const Given& entry) { return entry.last_frame < frame; });
+  known_.remove_if([frame](const Known& entry) { return entry.last_frame < frame; });
 }
 
 }  // namespace splotchcl

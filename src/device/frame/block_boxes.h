@@ -27,8 +27,8 @@ class BlockBoxes {
   // Those that are known of the particles without their values.
   const Boxes& given(const std::shared_ptr<const ParticleBoxes>& boxes, std::size_t count,
                      std::uint32_t block_particles, std::uint64_t frame);
-  // Forgets those that `frame` has not asked for.
-  void forget_all_but(std::uint64_t frame);
+  // Forgets those that no frame from this one on has asked for.
+  void forget_before(std::uint64_t frame);
 
  private:
   struct Known {

@@ -308,14 +308,14 @@ ParticleBuffers ParticleStore::get_piece(const Particles& particles, const Piece
   return buffers;
 }
 
-void ParticleStore::end_frame() {
-  boxes_.forget_all_but(frame_);
+void ParticleStore::end_frame(std::uint64_t number) {
+  boxes_.forget_before(number);
   for (auto constant = constants_.begin(); constant != constants_.end();) {
-    const bool is_asked_for = constant->second.frame == frame_;
+    const bool is_asked_for = constant->second.frame >= number;
     constant = is_asked_for ? std::next(constant) : constants_.erase(constant);
   }
   for (auto entry = entries_.begin(); entry != entries_.end();) {
-    if (entry->second.frame == frame_) {
+    if (entry->second.frame >= number) {
       ++entry;
       continue;
     }

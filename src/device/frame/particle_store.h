@@ -47,9 +47,10 @@ class ParticleStore {
   bool are_whole(const Particles& particles) const;
   // Bytes on the device, without those that lie in the caller's memory.
   std::uint64_t device_bytes() const { return device_bytes_; }
-  // Forgets columns that the frame now drawn has not asked for since begin_frame().
-  void begin_frame() { ++frame_; }
-  void end_frame();
+  // The frame's number. One may begin before others have ended, which are drawn by turns.
+  std::uint64_t begin_frame() { return ++frame_; }
+  // Forgets columns that neither this frame nor one that began later has asked for.
+  void end_frame(std::uint64_t number);
 
  private:
   enum class Kind {

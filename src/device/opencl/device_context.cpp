@@ -3,7 +3,7 @@
 #include <map>
 
 #include "device/opencl/native_exp2.h"
-#include "device/opencl/program_text.h"
+#include "device/opencl/quirks.h"
 #include "device/opencl/runtime_lock.h"
 #include "parallel/available_memory.h"
 
@@ -14,7 +14,7 @@ DeviceQueue::DeviceQueue(const compute::device& device)
 
 std::shared_ptr<DeviceQueue> open_queue(const compute::device& device) {
   const auto lock = lock_runtime();
-  if (!is_pocl_processor(device)) return std::make_shared<DeviceQueue>(device);
+  if (!quirks_of(device).needs_one_queue) return std::make_shared<DeviceQueue>(device);
   static std::map<cl_device_id, std::weak_ptr<DeviceQueue>> queues;
   std::weak_ptr<DeviceQueue>& known = queues[device.id()];
   std::shared_ptr<DeviceQueue> shared = known.lock();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "device/opencl/quirks.h"
 #include "kernels/common/group.h"
 
 namespace splotchcl {
@@ -70,8 +71,7 @@ DeviceTraits traits_of(const compute::device& device) {
   DeviceTraits traits;
   traits.is_gpu = (device.type() & CL_DEVICE_TYPE_GPU) != 0;
   traits.shares_host_memory = device.get_info<cl_bool>(CL_DEVICE_HOST_UNIFIED_MEMORY) != 0;
-  // Other processors' runtimes may want whole pages, and make a copy of what is not.
-  traits.large_pages = is_pocl_processor(device);
+  traits.large_pages = quirks_of(device).takes_large_pages;
   traits.double_numbers = device.supports_extension("cl_khr_fp64");
   traits.largest_buffer = device.max_memory_alloc_size();
   if (traits.is_gpu) traits.gpu_memory = device.global_memory_size();

@@ -11,6 +11,7 @@
 
 #include "device/opencl/device_context.h"
 #include "device/opencl/program_build.h"
+#include "device/opencl/quirks.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/opencl/shared_work.h"
 #include "splotchcl/error.h"
@@ -88,7 +89,7 @@ ProgramCache::Entry ProgramCache::entry_of(const ProgramSource& source) const {
   const compute::device device = context_.get_device();
   Entry entry;
   entry.text = text_of(source, device);
-  if (is_pocl(device)) {
+  if (quirks_of(device).reads_declarations) {
     entry.fallback = entry.text;
     entry.text = short_text_of(*entry.fallback);
   }
@@ -149,7 +150,7 @@ void ProgramCache::build(Entry& entry) {
 std::size_t ProgramCache::compilers_for(std::size_t programs) const {
   const compute::device device = context_.get_device();
   if (!start_compiler_ || !binaries_.is_used() || has_built_) return 0;
-  if (!is_pocl_processor(device)) return 0;
+  if (!quirks_of(device).shares_binaries) return 0;
   const std::size_t cores = std::min(std::size_t{device.compute_units()},
                                      std::size_t{std::thread::hardware_concurrency()});
   if (programs < 3 || cores < 2) return 0;

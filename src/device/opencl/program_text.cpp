@@ -1,6 +1,7 @@
 #include "device/opencl/program_text.h"
 
 #include "device/opencl/kernel_text.h"
+#include "device/opencl/quirks.h"
 
 namespace splotchcl {
 namespace {
@@ -9,11 +10,10 @@ namespace {
 constexpr char zero_denormals[] = "-cl-denorms-are-zero";
 // As if opencl-c.h, of clang's headers, had been read.
 constexpr char without_declarations[] = "-D_OPENCL_H_";
-// What compilers have beyond the language (prefetch.cl, flags.cl). NVIDIA's is clang, too, and
-// refuses its builtin for prefetching; a GPU has other work while it waits.
+// What compilers have beyond the language (prefetch.cl, flags.cl).
 constexpr char with_prefetch[] = "-DHAS_PREFETCH";
 constexpr char with_ballot[] = "-DHAS_BALLOT";
-// PoCL compiles a kernel three times, and what it calls once (common.cl).
+// Of who compiles a kernel several times (common.cl).
 constexpr char with_bodies[] = "-DCALLS_BODIES";
 
 std::string include_of(const std::string& file) {
@@ -25,8 +25,10 @@ std::string joined(const std::string& a, const std::string& b) {
 }
 
 std::string extras_of(const compute::device& device) {
-  if (is_nvidia(device)) return with_ballot;
-  return is_pocl_processor(device) ? joined(with_prefetch, with_bodies) : "";
+  const Quirks quirks = quirks_of(device);
+  const std::string extensions =
+      joined(quirks.has_prefetch ? with_prefetch : "", quirks.has_ballot ? with_ballot : "");
+  return joined(extensions, quirks.compiles_bodies_again ? with_bodies : "");
 }
 
 }  // namespace
@@ -53,18 +55,6 @@ ProgramText text_of(const ProgramSource& source, const compute::device& device) 
 ProgramText short_text_of(const ProgramText& text) {
   return {joined(without_declarations, text.options),
           flattened(include_of("kernels/common/builtins.h")) + text.source};
-}
-
-bool is_pocl(const compute::device& device) {
-  return device.platform().name() == "Portable Computing Language";
-}
-
-bool is_pocl_processor(const compute::device& device) {
-  return (device.type() & CL_DEVICE_TYPE_CPU) != 0 && is_pocl(device);
-}
-
-bool is_nvidia(const compute::device& device) {
-  return device.platform().name() == "NVIDIA CUDA";
 }
 
 }  // namespace splotchcl

@@ -44,13 +44,8 @@ struct ProgramText {
 // Throws DeviceError for files that are not part of this build.
 ProgramText text_of(const ProgramSource& source, const compute::device& device);
 
-// The same for PoCL, which is told not to read the 16000 lines with which it declares the language
-// before each program: they take longer than all else of reading it. The program declares what it
-// uses. What is compiled has the same bits.
+// The same for who reads declarations (Quirks), and is told not to: they take longer than all else
+// of reading it. The program declares what it uses. What is compiled has the same bits.
 ProgramText short_text_of(const ProgramText& text);
-
-bool is_pocl(const compute::device& device);
-bool is_pocl_processor(const compute::device& device);
-bool is_nvidia(const compute::device& device);  // its own driver
 
 }  // namespace splotchcl

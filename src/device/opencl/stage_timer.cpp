@@ -32,4 +32,22 @@ std::vector<StageTime> StageTimer::serial_times() const {
   return sum([](Kind kind) { return kind != Kind::parallel; });
 }
 
+std::vector<TimeSpan> StageTimer::spans() const {
+  const auto clock_of = [](const Command& command, cl_profiling_info when) {
+    return std::chrono::nanoseconds(command.event.get_profiling_info<cl_ulong>(when));
+  };
+  std::chrono::steady_clock::time_point start_of_clock =
+      std::chrono::steady_clock::time_point::max();
+  for (const Command& command : commands_)
+    start_of_clock =
+        std::min(start_of_clock, command.added - clock_of(command, CL_PROFILING_COMMAND_QUEUED));
+  std::vector<TimeSpan> spans;
+  for (const Command& command : commands_) {
+    spans.push_back({command.stage, true,
+                     start_of_clock + clock_of(command, CL_PROFILING_COMMAND_START),
+                     start_of_clock + clock_of(command, CL_PROFILING_COMMAND_END)});
+  }
+  return spans;
+}
+
 }  // namespace splotchcl

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ class StageTimer {
   enum class Kind { parallel, serial, copy };
 
   void add(const char* stage, const compute::event& event, Kind kind) {
-    commands_.push_back({stage, event, kind});
+    commands_.push_back({stage, event, kind, std::chrono::steady_clock::now()});
   }
   // Between the host's memory and the device's: of no stage.
   void add_copy(const compute::event& event) { add("copies", event, Kind::copy); }
@@ -26,6 +27,9 @@ class StageTimer {
   std::vector<StageTime> times() const;
   // Of commands that one thread runs, likewise.
   std::vector<StageTime> serial_times() const;
+  // When each command ran, by the host's clock. The device's is set by the command that took least
+  // time from there to add().
+  std::vector<TimeSpan> spans() const;
   void clear() { commands_.clear(); }
 
  private:
@@ -33,6 +37,7 @@ class StageTimer {
     const char* stage;
     compute::event event;
     Kind kind;
+    std::chrono::steady_clock::time_point added;
   };
   template <class IsCounted>
   std::vector<StageTime> sum(IsCounted is_counted) const;

@@ -13,8 +13,8 @@
 namespace splotchcl {
 namespace {
 
-// What was collected, tile by tile.
-struct CellsOfTiles {
+// Values of tiles, where those of an octave lie.
+struct TileCells {
   const float* values;
   std::size_t cells_per_tile;
   int tile_width, tile_height;
@@ -49,7 +49,7 @@ int side_of(const shared::OctaveCells& octave) {
   return 1 << octave.pixel_bits / 2;
 }
 
-bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+bool TileCells::is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
   const auto tiles =
       static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
   const auto cells = static_cast<std::size_t>((tile_width * tile_height) >> octave.pixel_bits);
@@ -60,7 +60,7 @@ bool CellsOfTiles::is_empty(const shared::OctaveCells& octave, const shared::Gri
   return true;
 }
 
-CellSums CellsOfTiles::sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+CellSums TileCells::sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const {
   CellSums sums;
   sums.side = side_of(octave);
   sums.columns = grid.tiles_x * (tile_width / sums.side);
@@ -69,8 +69,8 @@ CellSums CellsOfTiles::sums_of(const shared::OctaveCells& octave, const shared::
   return sums;
 }
 
-void CellsOfTiles::add_row(const shared::OctaveCells& octave, const shared::Grid& grid,
-                           int tile_row, CellSums& sums) const {
+void TileCells::add_row(const shared::OctaveCells& octave, const shared::Grid& grid, int tile_row,
+                        CellSums& sums) const {
   const int across = tile_width / side_of(octave), along = tile_height / side_of(octave);
   float* to = sums.values.data() + std::ptrdiff_t{tile_row} * along * sums.columns;
   for (int row = 0; row < along; ++row) {
@@ -186,28 +186,32 @@ void Certifier::collect_in_groups(const TileLists& lists,
       .run_groups(lists.segment_count, GROUP_ITEMS);
 }
 
-CollectedSplats Certifier::collected() const {
-  CollectedSplats found;
-  if (!has_started()) return found;
+CellsOfTiles Certifier::read() const {
+  CellsOfTiles cells;
+  if (!has_started()) return cells;
   const MappedValues<const float> values = context_.device.pool.map_to_read(cells_);
-  found.longest_list = longest_list(values.data() + parameters_.listed, context_.layout.tile_count,
-                                    parameters_.cells_per_tile);
-  found.cells = gathered_cells(values.data());
-  return found;
+  cells.values.assign(values.data(), values.data() + values.size());
+  cells.parameters = parameters_;
+  cells.tile_count = context_.layout.tile_count;
+  cells.tile_width = static_cast<int>(context_.variant.tile_width);
+  cells.tile_height = static_cast<int>(context_.variant.tile_height);
+  cells.grids = context_.layout.grids;
+  cells.pyramid = context_.plan.pyramid;
+  return cells;
 }
 
 // Of all octaves and levels that have some. All cores read what lies far apart: octaves first, to
 // see which there are, then rows of tiles of these.
-std::vector<PeakCells> Certifier::gathered_cells(const float* values) const {
-  const CellsOfTiles tiles = {values, parameters_.cells_per_tile,
-                              static_cast<int>(context_.variant.tile_width),
-                              static_cast<int>(context_.variant.tile_height)};
-  const std::vector<shared::Grid>& grids = context_.layout.grids;
-  std::vector<OctaveOfLevel> octaves = octaves_of_levels(context_.plan.pyramid);
+void CellsOfTiles::gather(CollectedSplats& splats) const {
+  if (values.empty()) return;
+  splats.longest_list =
+      longest_list(values.data() + parameters.listed, tile_count, parameters.cells_per_tile);
+  const TileCells tiles = {values.data(), parameters.cells_per_tile, tile_width, tile_height};
+  std::vector<OctaveOfLevel> octaves = octaves_of_levels(pyramid);
   for_blocks(octaves.size(), 1, [&](std::size_t number, std::size_t) {
     OctaveOfLevel& own = octaves[number];
-    const shared::OctaveCells& peaks = parameters_.peaks[own.octave];
-    const shared::OctaveCells& endings = parameters_.endings[own.octave];
+    const shared::OctaveCells& peaks = parameters.peaks[own.octave];
+    const shared::OctaveCells& endings = parameters.endings[own.octave];
     for (std::size_t g = own.first_grid; g < own.end_grid; ++g) {
       // Bright splats end where those of wider octaves do.
       if (!tiles.is_empty(peaks, grids[g]) || !tiles.is_empty(endings, grids[g]))
@@ -219,13 +223,13 @@ std::vector<PeakCells> Certifier::gathered_cells(const float* values) const {
     OctaveOfLevel& own = octaves[number];
     if (own.grids.empty()) continue;
     const shared::Grid& grid = grids[own.grids.back()];
-    own.cells.level = context_.plan.pyramid.grids[own.first_grid].level;
+    own.cells.level = pyramid.grids[own.first_grid].level;
     own.cells.is_beside_picture = own.cells.level == 0 && own.first_grid > 0;
     own.cells.octave = own.octave + own.cells.level;
     own.cells.left = grid.first_x - grid.guard;
     own.cells.top = grid.first_y - grid.guard;
-    own.cells.peaks = tiles.sums_of(parameters_.peaks[own.octave], grid);
-    own.cells.endings = tiles.sums_of(parameters_.endings[own.octave], grid);
+    own.cells.peaks = tiles.sums_of(parameters.peaks[own.octave], grid);
+    own.cells.endings = tiles.sums_of(parameters.endings[own.octave], grid);
     for (int row = 0; row < grid.tiles_y; ++row)
       rows.push_back({number, row});
   }
@@ -234,16 +238,14 @@ std::vector<PeakCells> Certifier::gathered_cells(const float* values) const {
     for (std::size_t i = first; i < end; ++i) {
       OctaveOfLevel& own = octaves[rows[i].octave];
       for (const std::size_t g : own.grids) {
-        tiles.add_row(parameters_.peaks[own.octave], grids[g], rows[i].row, own.cells.peaks);
-        tiles.add_row(parameters_.endings[own.octave], grids[g], rows[i].row, own.cells.endings);
+        tiles.add_row(parameters.peaks[own.octave], grids[g], rows[i].row, own.cells.peaks);
+        tiles.add_row(parameters.endings[own.octave], grids[g], rows[i].row, own.cells.endings);
       }
     }
   });
-  std::vector<PeakCells> gathered;
   for (OctaveOfLevel& own : octaves) {
-    if (!own.grids.empty()) gathered.push_back(std::move(own.cells));
+    if (!own.grids.empty()) splats.cells.push_back(std::move(own.cells));
   }
-  return gathered;
 }
 
 }  // namespace splotchcl

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -10,6 +11,19 @@
 
 namespace splotchcl {
 
+// What was collected, read back tile by tile: to be gathered while the device does other work.
+struct CellsOfTiles {
+  std::vector<float> values;  // none: nothing was collected
+  shared::CertifyParameters parameters{};
+  std::size_t tile_count = 0;
+  int tile_width = 0, tile_height = 0;
+  std::vector<shared::Grid> grids;
+  GridPyramid pyramid;
+
+  // Octaves without splats are left out.
+  void gather(CollectedSplats& splats) const;
+};
+
 // Collects what a frame's splats add up to, from the lists that were drawn: the stage `certify`.
 // Not for extended precision, whose bound holds for any splats.
 class Certifier {
@@ -17,8 +31,8 @@ class Certifier {
   explicit Certifier(const StageContext& context);
 
   void collect(const TileLists& lists);
-  // Of all lists so far; waits for the device. Octaves without splats are left out.
-  CollectedSplats collected() const;
+  // Of all lists so far; waits for the device.
+  CellsOfTiles read() const;
 
   // The same as it lies on the device, tile by tile, none where there were no lists: begins anew,
   // or goes on with what was taken.
@@ -32,7 +46,6 @@ class Certifier {
 
  private:
   void start();
-  std::vector<PeakCells> gathered_cells(const float* values) const;
   void collect_in_groups(const TileLists& lists, const shared::CertifyParameters& parameters) const;
 
   const StageContext& context_;

@@ -77,6 +77,7 @@ void add(const RenderStats& frame, RenderStats& total) {
   total.total_seconds += frame.total_seconds;
   add(frame.stages, total.stages);
   add(frame.serial, total.serial);
+  total.spans.insert(total.spans.end(), frame.spans.begin(), frame.spans.end());
 }
 
 // Eyes, faces and insets together.
@@ -217,8 +218,9 @@ struct FrameDrawer::State {
 
   Image draw_alone(const Frame& view, RenderStats& total) {
     const QuietErrors quiet;
-    Image image = draw_with_device(view);
-    add(renderer.get()->stats(), total);
+    RenderStats stats;
+    Image image = draw_with_device(view, stats);
+    add(stats, total);
     return image;
   }
 
@@ -244,12 +246,12 @@ struct FrameDrawer::State {
     return renderer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }
 
-  Image draw_with_device(const Frame& view) const {
-    if (is_open()) return renderer.get()->render(view);
+  Image draw_with_device(const Frame& view, RenderStats& stats) const {
+    if (is_open()) return renderer.get()->render(view, stats);
     // While the device is opened. Alone: glibc makes no thread while another loads a library.
     constexpr bool on_all_cores = false;
     const FramePlan plan = Renderer::first_plan(view, plan_options, on_all_cores);
-    return renderer.get()->render(view, plan);
+    return renderer.get()->render(view, plan, stats);
   }
 
   Image draw_with_reference(const Frame& view, RenderStats& total) const {
@@ -282,6 +284,9 @@ struct FrameDrawer::State {
         scene, frame, snapshot, [&](const Frame& view) { return draw_view(view, drawn); },
         drawn.notes, other_scenes, light, [&](double gain) { return keeps_promise(gain, drawn); },
         moments, loose_drawing());
+    if (!drawn.stats.spans.empty())
+      drawn.stats.spans.push_back(
+          {"finish", false, drawn.stats.spans.back().end, std::chrono::steady_clock::now()});
     drawn.pictures = std::move(pictures.pictures);
     if (!pictures.is_black) drawn.finish = std::move(pictures.finish);
     if (!drawn.stats.note.empty()) drawn.notes.push_back(drawn.stats.note);
@@ -321,14 +326,20 @@ DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot,
                              OtherScenes& other_scenes, const std::vector<Moment>& moments) {
   std::vector<std::string> notes;
   const Frame frame = load_frame(scene, snapshot, notes, state_->progress);
-  return all_or_none(frame, [&] {
-    return state_->draw(scene, frame, snapshot.info(), other_scenes, std::move(notes), moments);
-  });
+  return draw(scene, frame, snapshot.info(), other_scenes, std::move(notes), moments);
 }
 
 DrawnFrame FrameDrawer::draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot) {
   OtherScenes none_kept;
-  return all_or_none(frame, [&] { return state_->draw(scene, frame, snapshot, none_kept, {}); });
+  return draw(scene, frame, snapshot, none_kept, {});
+}
+
+DrawnFrame FrameDrawer::draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
+                             OtherScenes& other_scenes, std::vector<std::string> notes,
+                             const std::vector<Moment>& moments) {
+  return all_or_none(frame, [&] {
+    return state_->draw(scene, frame, snapshot, other_scenes, std::move(notes), moments);
+  });
 }
 
 ImageFileOptions image_file_options(const Scene& scene,

@@ -2,22 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "finish/effects.h"
 #include "finish/tone.h"
-#include "parallel/in_background.h"
+#include "parallel/available_memory.h"
 #include "pictures/other_scenes.h"
+#include "splotchcl/load.h"
+#include "splotchcl/snapshot.h"
 
 namespace splotchcl {
 
-FilmDrawer::FilmDrawer(const FrameDrawerOptions& options,
-                       std::function<void(const std::string&)> note)
-    : drawer_(options), note_(std::move(note)) {}
+FilmDrawer::FilmDrawer(const FrameDrawerOptions& options, Report report)
+    : drawer_(options),
+      report_(std::move(report)),
+      draws_alone_(options.by_reference || options.ranks != nullptr) {}
 
-// The future waits for the frame that is being written.
+// Waits for the frames that are being drawn and written.
 FilmDrawer::~FilmDrawer() = default;
 
 namespace {
@@ -62,35 +68,89 @@ std::string timecode(int frame, double frames_per_second) {
                      seconds % 60, frame % rate);
 }
 
+std::uint64_t bytes_of(const std::vector<Picture>& pictures) {
+  std::uint64_t bytes = 0;
+  for (const Picture& picture : pictures)
+    bytes += (picture.image.pixels.size() + picture.light.pixels.size()) * sizeof(float);
+  return bytes;
+}
+
 }  // namespace
 
-RenderStats FilmDrawer::draw(int frame, const Scene& scene, const Snapshot& snapshot,
-                             const std::vector<Moment>& moments, OtherScenes& other_scenes,
-                             const std::filesystem::path& output,
-                             const std::function<void()>& before_writing) {
-  DrawnFrame drawn = drawer_.draw(with_known_tone(frame, scene), snapshot, other_scenes, moments);
+LoadedFrame FilmDrawer::load(int frame, Scene scene, std::shared_ptr<const Snapshot> snapshot,
+                             std::vector<Moment> moments) const {
+  const auto start = std::chrono::steady_clock::now();
+  LoadedFrame loaded;
+  loaded.frame = load_frame(scene, *snapshot, loaded.notes);
+  loaded.number = frame;
+  loaded.scene = with_known_tone(frame, std::move(scene));
+  loaded.snapshot = std::move(snapshot);
+  loaded.moments = std::move(moments);
+  loaded.reading = {"load", false, start, std::chrono::steady_clock::now()};
+  return loaded;
+}
+
+void FilmDrawer::begin(LoadedFrame frame, OtherScenes& other_scenes) {
+  // Moments and other scenes are read while they are drawn, and what was read of them is kept.
+  const bool reads = !frame.moments.empty() || cross_fade_scene(frame.scene).has_value();
+  may_go_on_ = !draws_alone_ && !reads;
+  drawing_.begin([this, &other_scenes, frame = std::move(frame)] {
+    DrawnFrame drawn = drawer_.draw(frame.scene, frame.frame, frame.snapshot->info(), other_scenes,
+                                    frame.notes, frame.moments);
+    return Drawn{frame.number, frame.scene, std::move(drawn), frame.reading};
+  });
+}
+
+std::pair<int, RenderStats> FilmDrawer::end(
+    const std::function<std::filesystem::path(int frame)>& output,
+    const std::function<void()>& before_writing) {
+  Drawn of_frame = drawing_.take();
   before_writing();
-  tell(drawn.notes);
-  tell_of_bad_particles(drawn);
-  finish();
-  if (output.empty()) return drawn.stats;
+  tell(of_frame.drawn.notes);
+  tell_of_bad_particles(of_frame.drawn);
+  tell_span(of_frame.number, of_frame.reading);
+  for (const TimeSpan& span : of_frame.drawn.stats.spans)
+    tell_span(of_frame.number, span);
+  write(of_frame.number, of_frame.scene, std::move(of_frame.drawn.pictures),
+        output(of_frame.number));
+  return {of_frame.number, std::move(of_frame.drawn.stats)};
+}
+
+void FilmDrawer::write(int frame, const Scene& scene, std::vector<Picture> pictures,
+                       const std::filesystem::path& output) {
+  // To write one takes several times as long as to draw it on a GPU.
+  const std::size_t most = held_within_memory(bytes_of(pictures));
+  while (writing_.size() >= most)
+    end_writing();
+  if (output.empty()) return;
   std::map<std::string, std::string> metadata = {{"splotchcl:frame", std::to_string(frame)}};
   const std::string code = timecode(frame, scene.movie.frames_per_second);
   if (!code.empty()) metadata["splotchcl:timecode"] = code;
-  writing_ = in_background([output, pictures = std::move(drawn.pictures),
-                            options = image_file_options(scene, std::move(metadata))] {
+  writing_.begin([frame, output, pictures = std::move(pictures),
+                  options = image_file_options(scene, std::move(metadata))] {
+    const auto start = std::chrono::steady_clock::now();
     write_pictures(output, pictures, options);
+    return Written{frame, {"write", false, start, std::chrono::steady_clock::now()}};
   });
-  return drawn.stats;
+}
+
+void FilmDrawer::end_writing() {
+  const Written written = writing_.take();
+  tell_span(written.frame, written.span);
 }
 
 void FilmDrawer::finish() {
-  if (writing_.valid()) writing_.get();
+  while (writing_.size() > 0)
+    end_writing();
+}
+
+void FilmDrawer::tell_span(int frame, const TimeSpan& span) const {
+  if (report_.span) report_.span(frame, span);
 }
 
 void FilmDrawer::tell(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) {
-    if (told_.insert(note).second && note_) note_(note);
+    if (told_.insert(note).second && report_.note) report_.note(note);
   }
 }
 

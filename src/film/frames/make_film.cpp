@@ -13,6 +13,8 @@
 #include "film/movie/film_layout.h"
 #include "film/movie/frame_files.h"
 #include "film/movie/numbered_files.h"
+#include "parallel/available_memory.h"
+#include "parallel/ordered_tasks.h"
 #include "pictures/other_scenes.h"
 #include "ranks/exchange.h"
 #include "splotchcl/error.h"
@@ -140,6 +142,7 @@ class Film {
     for (const std::filesystem::path& path : files_.outputs(frames_))
       outputs.push_back({path, "--output"});
     if (options_.stats) outputs.push_back({*options_.stats, "--stats"});
+    if (options_.timeline) outputs.push_back({*options_.timeline, "--timeline"});
     const auto inputs = [this] {
       return film_files_read(options_.scene, scene_.scene(), scene_.path());
     };
@@ -193,30 +196,49 @@ class Film {
     of_drawer.ranks = options_.ranks;
     if (has_files() && !options_.as_displayed)
       of_drawer.light = light_of_file(files_.picture(frames.front(), ""));
-    FilmDrawer drawer(of_drawer, report_.note);
+    FilmDrawer drawer(of_drawer, {report_.note, report_.span});
     drawer.tell(scene_.notes());
     decide_tone(drawer);
     for (std::size_t i = 0; i < frames.size(); ++i) {
+      LoadedFrame loaded = load(drawer, frames[i]);
+      // It may have been asked meanwhile.
+      if (drawer.begun() > 0) stop_if_asked(drawer);
       if (report_.frame) report_.frame(frames[i], i, frames.size());
-      const Scene scene = as_stored(scene_.scene_at(frames[i]));
-      const auto output = has_files() ? files_.picture(frames[i], "") : std::filesystem::path();
-      const RenderStats stats = draw_frame(drawer, frames[i], scene, output);
-      if (report_.drawn) report_.drawn(frames[i], stats);
+      drawer.begin(std::move(loaded), scene_.other_scenes());
+      end_frames(drawer, drawer.may_go_on() ? 1 : 0);
       agree(options_.ranks.get(), [&] { stop_if_asked(drawer); });
     }
+    end_frames(drawer, 0);
     agree(options_.ranks.get(), [&] {
       drawer.finish();
       if (has_files()) require_drawn(frames);
     });
   }
 
-  // What changes while it is drawn may fail anywhere: then that is what to tell.
-  RenderStats draw_frame(FilmDrawer& drawer, int frame, const Scene& scene,
-                         const std::filesystem::path& output) {
+  // While the device draws the frame before. What is wrong with that one is told first.
+  LoadedFrame load(FilmDrawer& drawer, int frame) {
     try {
-      return drawer.draw(frame, scene, *scene_.snapshot_at(scene), moments_of(frame),
-                         scene_.other_scenes(), output,
-                         [&] { agree(options_.ranks.get(), [&] { scene_.check_files(); }); });
+      const Scene scene = as_stored(scene_.scene_at(frame));
+      return drawer.load(frame, scene, scene_.snapshot_at(scene), moments_of(frame));
+    } catch (const Error&) {
+      end_frames(drawer, 0);
+      if (!options_.ranks) scene_.check_files();
+      throw;
+    }
+  }
+
+  // All but so many of those that were begun last. What changes while it is drawn may fail
+  // anywhere: then that is what to tell.
+  void end_frames(FilmDrawer& drawer, std::size_t left) {
+    const auto output = [this](int frame) {
+      return has_files() ? files_.picture(frame, "") : std::filesystem::path();
+    };
+    try {
+      while (drawer.begun() > left) {
+        const auto [frame, stats] =
+            drawer.end(output, [&] { agree(options_.ranks.get(), [&] { scene_.check_files(); }); });
+        if (report_.drawn) report_.drawn(frame, stats);
+      }
     } catch (const Error&) {
       if (!options_.ranks) scene_.check_files();
       throw;
@@ -240,8 +262,9 @@ class Film {
     }
   }
 
-  void stop_if_asked(FilmDrawer& drawer) const {
+  void stop_if_asked(FilmDrawer& drawer) {
     if (!has_files() || !report_.is_stopped || !report_.is_stopped()) return;
+    end_frames(drawer, 0);
     drawer.finish();
     throw DataError(
         "stopped; the frames that were drawn are kept, and the same command goes on with the "
@@ -295,13 +318,24 @@ class Film {
     for (const PictureSize& size : sizes_of(start_)) {
       files_.remove_unfinished_film(size.suffix);
       Encoder encoder(files_.film(size.suffix), start_.movie, size.width, size.height, layout);
+      const int bits = frame_bits(options_.output, start_.movie);
+      const std::uint64_t bytes = std::uint64_t{4 * sizeof(float)} *
+                                  static_cast<std::uint64_t>(size.width) *
+                                  static_cast<std::uint64_t>(size.height);
+      const std::size_t most = held_within_memory(bytes);
+      OrderedTasks<std::vector<std::uint8_t>> reading;
+      std::size_t next = 0;
       for (std::size_t i = 0; i < frames_.size(); ++i) {
+        for (; next < frames_.size() && reading.size() < most; ++next) {
+          reading.begin([file = files_.picture(frames_[next], size.suffix), bits] {
+            return read_bytes(file, bits);
+          });
+        }
         if (report_.progress) {
           report_.progress("joining the frames",
                            static_cast<double>(i) / static_cast<double>(frames_.size()));
         }
-        encoder.add(read_bytes(files_.picture(frames_[i], size.suffix),
-                               frame_bits(options_.output, start_.movie)));
+        encoder.add(reading.take());
       }
       encoder.finish();
     }
