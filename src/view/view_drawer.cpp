@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "image/picture_encoders.h"
+#include "load/component_tree.h"
 #include "snapshot/derived_snapshots.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
