@@ -139,7 +139,7 @@ class Views {
     constexpr double margin = 1.1;  // for what rough light, and some of its colors, do not tell
     std::vector<Image> images = draw_places(frame_, draw_roughly);
     DisplayGain gain;
-    do {
+    do {  // It ends, since each time the gain is a tenth larger at least.
       gain = gain_of(images);
       gain.of_errors *= margin;
       images = draw_places(frame_, with_errors_counted(draw, gain));
@@ -154,7 +154,9 @@ class Views {
     largest.of_light = 0;
     for (Image& image : images) {
       add_bloom(image, scene_.finish.bloom);
-      const DisplayGain gain = display_gain_of_shown(image, finish, scene_.image.gamma);
+      DisplayGain gain = display_gain_of_shown(image, finish, scene_.image.gamma);
+      // What bright pixels err by glows over dark ones.
+      if (scene_.finish.bloom > 0) gain.of_errors = std::max(1.0, gain.of_errors);
       if (gain.total() > largest.total()) largest = gain;
     }
     return largest;

@@ -1,3 +1,7 @@
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
 #include "device/counted_column.h"
 #include "scene/particle_columns.h"
 #include "scene/scalar_map.h"
@@ -59,6 +63,28 @@ TEST(PickedParticles, AreMadeAlone) {
   EXPECT_EQ(picked.weight[1], 10);
   EXPECT_EQ(picked.color.uniform_value(), 5);
   EXPECT_EQ(positions->made(), 6u);
+}
+
+// Close together, upwards and downwards, and far apart.
+TEST(PickedParticles, AreReadTogetherWhereTheyLieCloseTogether) {
+  constexpr std::uint64_t count = 100000;
+  Particles particles;
+  particles.count = count;
+  std::vector<float> values(count);
+  std::iota(values.begin(), values.end(), 0.0f);
+  const auto weights = std::make_shared<const CountedColumn>(Column::owning(values));
+  particles.weight = Column::made_by(weights);
+  std::vector<std::uint64_t> places;
+  for (std::uint64_t i = 0; i < 40; ++i)
+    places.push_back(500 + (7 * i) % 41);
+  places.insert(places.end(), {count - 1, 0, count / 2});
+  for (std::uint64_t i = 40; i-- > 0;)
+    places.push_back(70000 + 5 * i);
+  const Particles picked = picked_particles(particles, places);
+  ASSERT_EQ(picked.count, places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    EXPECT_EQ(picked.weight[i], values[places[i]]) << i;
+  EXPECT_LT(weights->made(), 700u);
 }
 
 TEST(ScalarMap, TellsTheLeastOfLogarithmsAndAsinhBeforeTheyAreTaken) {

@@ -69,9 +69,9 @@ TEST(FrameSample, IsGatheredOnceForTheSameColumns) {
   EXPECT_EQ(sampler.sample(other, 100).components[0].particles.color.uniform_value(), 6);
 }
 
-TEST(FrameSample, MakesOfColumnsThatAreStreamedItsOwnValuesOnly) {
+TEST(FrameSample, MakesOfColumnsThatAreStreamedItsOwnValuesOnlyIfTheseLieFarApart) {
   FrameSampler sampler;
-  Frame frame = frame_of(1000);
+  Frame frame = frame_of(100000);
   Particles& particles = frame.components[0].particles;
   const auto sizes = std::make_shared<const test::CountedColumn>(particles.smoothing_length);
   particles.smoothing_length = Column::made_by(sizes);

@@ -203,7 +203,7 @@ class Film {
       LoadedFrame loaded = load(drawer, frames[i]);
       // It may have been asked meanwhile.
       if (drawer.begun() > 0) stop_if_asked(drawer);
-      if (report_.frame) report_.frame(frames[i], i, frames.size());
+      tell_frame(drawer, frames[i], i, frames.size());
       drawer.begin(std::move(loaded), scene_.other_scenes());
       end_frames(drawer, drawer.may_go_on() ? 1 : 0);
       agree(options_.ranks.get(), [&] { stop_if_asked(drawer); });
@@ -259,6 +259,18 @@ class Film {
       throw DataError(files_.picture(frame, "").string() +
                       ": was drawn, but is not there any more, or is another file; draw it again "
                       "and leave it where it is");
+    }
+  }
+
+  // What this throws ends the film, and frames that were begun are kept.
+  void tell_frame(FilmDrawer& drawer, int frame, std::size_t done, std::size_t all) {
+    if (!report_.frame) return;
+    try {
+      report_.frame(frame, done, all);
+    } catch (...) {
+      end_frames(drawer, 0);
+      drawer.finish();
+      throw;
     }
   }
 
