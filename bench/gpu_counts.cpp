@@ -52,7 +52,8 @@ class Counter {
     const SortedSplats sorted = pipeline_.sorter().sort(pipeline_.project_all());
     counts_.splats = static_cast<double>(sorted.count);
     counts_.tiles = pipeline_.context().layout.tile_count;
-    for (const SplatChunk& chunk : splat_chunks(sorted.count, pipeline_.context().plan.slabs, device_.traits)) {
+    for (const SplatChunk& chunk :
+         splat_chunks(sorted.count, pipeline_.context().plan.slabs, device_.traits)) {
       const CountedSplats counted = pipeline_.binner().count(sorted, chunk);
       for (const TileBand& band : counted.bands)
         add_lists(pipeline_.binner().make_lists(counted, band));
