@@ -163,10 +163,14 @@ class Views {
   }
 
   FinishSettings with_tone_of_all(const std::vector<Image>& images) const {
+    return with_any_tone(scene_.finish, scene_.image.gamma, light_of(images));
+  }
+
+  static LightHistogram light_of(const std::vector<Image>& images) {
     LightHistogram light;
     for (const Image& image : images)
       light.add(image);
-    return with_any_tone(scene_.finish, scene_.image.gamma, light);
+    return light;
   }
 
   std::vector<Image> draw_all(const DrawFrame& draw) const {
@@ -192,9 +196,7 @@ class Views {
 
   void find_tone(const std::vector<Image>& images, DrawnPictures& drawn) const {
     if (!has_open_tone(scene_.finish)) return;
-    LightHistogram light;
-    for (const Image& image : images)
-      light.add(image);
+    const LightHistogram light = light_of(images);
     drawn.finish = with_any_tone(scene_.finish, scene_.image.gamma, light);
     drawn.is_black = !with_tone_of(scene_.finish, scene_.image.gamma, light);
   }
