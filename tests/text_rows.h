@@ -2,7 +2,9 @@
 
 #include <filesystem>
 #include <ostream>
+#include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 // Texts and what is expected of each, as files. "== Name" begins a row: below it stand the lines of
@@ -24,5 +26,20 @@ inline void PrintTo(const TextRow& row, std::ostream* out) {
 }
 
 std::vector<TextRow> read_text_rows(const std::filesystem::path& file);
+
+// Of floats or doubles; "nan" as well, which streams do not read.
+template <class Number>
+std::vector<Number> numbers_in(const std::string& text) {
+  std::istringstream words(text);
+  std::vector<Number> numbers;
+  for (std::string word; words >> word;) {
+    if constexpr (std::is_same_v<Number, float>) {
+      numbers.push_back(std::stof(word));
+    } else {
+      numbers.push_back(std::stod(word));
+    }
+  }
+  return numbers;
+}
 
 }  // namespace splotchcl::test

@@ -20,15 +20,6 @@ std::string first_word(std::string& text) {
   return word;
 }
 
-// "nan" as well, which streams do not read.
-std::vector<double> numbers(const std::string& text) {
-  std::istringstream words(text);
-  std::vector<double> values;
-  for (std::string word; words >> word;)
-    values.push_back(std::stod(word));
-  return values;
-}
-
 void expect_values(const std::vector<double>& found, const std::vector<double>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i)
@@ -39,12 +30,12 @@ void expect_values(const std::vector<double>& found, const std::vector<double>& 
 void expect_field(const Snapshot& snapshot, int type, const std::string& field,
                   const std::string& values) {
   if (field == "position") {
-    expect_values(absolute_positions(snapshot, type), numbers(values));
+    expect_values(absolute_positions(snapshot, type), numbers_in<double>(values));
     return;
   }
   const Column column = snapshot.read(type, field);
   const std::vector<float> found = values_of(column);
-  std::vector<double> expected = numbers(values);
+  std::vector<double> expected = numbers_in<double>(values);
   for (double& value : expected)
     value = static_cast<double>(static_cast<float>(value));
   expect_values({found.begin(), found.end()}, expected);

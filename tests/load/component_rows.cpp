@@ -2,6 +2,7 @@
 
 #include "load/particles.h"
 #include "splotchcl/scene_file.h"
+#include "text_rows.h"
 
 namespace splotchcl::test {
 namespace {
@@ -11,15 +12,6 @@ std::string first_word(std::string& text) {
   const std::string word = text.substr(0, blank);
   text = blank == std::string::npos ? "" : text.substr(blank + 1);
   return word;
-}
-
-// "nan" as well, which streams do not read.
-std::vector<float> numbers(const std::string& text) {
-  std::istringstream words(text);
-  std::vector<float> values;
-  for (std::string word; words >> word;)
-    values.push_back(std::stof(word));
-  return values;
 }
 
 Vec3 vector_of(const std::string& text) {
@@ -42,7 +34,7 @@ NumberedSnapshot snapshot_of(const std::vector<std::string>& row) {
     } else if (what == "box") {
       snapshot.set_box_size(std::stod(value));
     } else {
-      const std::vector<float> values = numbers(value);
+      const std::vector<float> values = numbers_in<float>(value);
       snapshot.add(0, what, values, values.size() == 3 * count ? 3 : 1);
     }
   }
@@ -85,11 +77,11 @@ void expect(const DrawnComponent& drawn, const std::vector<std::string>& notes, 
   } else if (what == "count") {
     EXPECT_EQ(std::to_string(drawn.particles.count), value);
   } else if (what == "range") {
-    const std::vector<float> range = numbers(value);
+    const std::vector<float> range = numbers_in<float>(value);
     EXPECT_NEAR(drawn.color.minimum, static_cast<double>(range.at(0)), 1e-6);
     EXPECT_NEAR(drawn.color.maximum, static_cast<double>(range.at(1)), 1e-6);
   } else {
-    EXPECT_EQ(values(column_of(drawn.particles, what)), numbers(value));
+    EXPECT_EQ(values(column_of(drawn.particles, what)), numbers_in<float>(value));
   }
 }
 
