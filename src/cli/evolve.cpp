@@ -11,7 +11,7 @@
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "film/frames/film_drawer.h"
-#include "film/movie/numbered_files.h"
+#include "film/movie/frame_files.h"
 #include "open_scene/input_files.h"
 #include "pictures/other_scenes.h"
 #include "scene/constants.h"

@@ -14,7 +14,7 @@
 #include "common/unfinished_file.h"
 #include "film/dome/dome_test_frame.h"
 #include "film/frames/film_scene.h"
-#include "film/movie/numbered_files.h"
+#include "film/movie/frame_files.h"
 #include "ranks/exchange.h"
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"

@@ -12,7 +12,6 @@
 #include "film/movie/encoder.h"
 #include "film/movie/film_layout.h"
 #include "film/movie/frame_files.h"
-#include "film/movie/numbered_files.h"
 #include "parallel/available_memory.h"
 #include "parallel/ordered_tasks.h"
 #include "pictures/other_scenes.h"

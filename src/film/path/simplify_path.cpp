@@ -11,7 +11,6 @@
 #include <optional>
 
 #include "film/path/keyframe_tracks.h"
-#include "film/path/turn_limit.h"
 #include "film/path/view_line.h"
 #include "scene_file/setting.h"
 

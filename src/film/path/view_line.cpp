@@ -1,6 +1,8 @@
 #include "film/path/view_line.h"
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
+#include <cmath>
 #include <cstddef>
 
 #include "scene_file/setting.h"
@@ -45,6 +47,50 @@ void ViewLine::put_into(std::vector<std::string>& settings) const {
   settings.push_back(camera_setting("position", position));
   settings.push_back(camera_setting("look_at", look_at));
   settings.push_back(camera_setting("sky", sky));
+}
+
+using namespace boost::qvm;
+
+double angle_between(const Vec3& a, const Vec3& b) {
+  return std::atan2(mag(cross(a, b)), dot(a, b));
+}
+
+double largest_turn(const std::vector<Vec3>& directions) {
+  double largest = 0;
+  for (std::size_t i = 1; i < directions.size(); ++i)
+    largest = std::max(largest, angle_between(directions[i - 1], directions[i]));
+  return largest;
+}
+
+namespace {
+
+// Of so many on both sides; beyond the ends it stays what it is there. Empty where opposite
+// directions leave nothing.
+std::vector<Vec3> averaged(const std::vector<Vec3>& directions, int around) {
+  const int last = static_cast<int>(directions.size()) - 1;
+  constexpr double hardly = 0.01;
+  std::vector<Vec3> means;
+  for (int i = 0; i <= last; ++i) {
+    Vec3 sum = {{0, 0, 0}};
+    for (int j = i - around; j <= i + around; ++j)
+      sum += directions[static_cast<std::size_t>(std::clamp(j, 0, last))];
+    const double length = mag(sum) / (2 * around + 1);
+    if (length < hardly) return {};
+    means.push_back(normalized(sum));
+  }
+  return means;
+}
+
+}  // namespace
+
+std::vector<Vec3> with_slow_turns(const std::vector<Vec3>& directions, double most_radians) {
+  constexpr double rounding = 1e-9;
+  const int most_around = static_cast<int>(directions.size()) / 4;
+  for (int around = 0; around <= most_around; around = around + 1 + around / 8) {
+    std::vector<Vec3> slow = averaged(directions, around);
+    if (!slow.empty() && largest_turn(slow) <= most_radians * (1 + rounding)) return slow;
+  }
+  return {};
 }
 
 }  // namespace splotchcl

@@ -1,5 +1,4 @@
-#include "film/frames/film_tone.h"
-
+#include "film/frames/film_drawer.h"
 #include "testing.h"
 
 namespace splotchcl {

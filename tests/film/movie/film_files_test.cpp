@@ -4,7 +4,7 @@
 
 #include "film/movie/encoder.h"
 #include "film/movie/film_layout.h"
-#include "film/movie/numbered_files.h"
+#include "film/movie/frame_files.h"
 #include "film/path/path_messages.h"
 #include "testing.h"
 

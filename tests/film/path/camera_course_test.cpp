@@ -1,11 +1,12 @@
 // Cameras that follow and approach, and how fast they go.
+#include "film/path/camera_course.h"
+
 #include <boost/qvm/vec_operations.hpp>
 
 #include "film/path/film_path.h"
-#include "film/path/keyframe_pace.h"
+#include "film/path/keyframe_tracks.h"
 #include "film/path/path_messages.h"
-#include "film/path/turn_limit.h"
-#include "film/path/zoom_curve.h"
+#include "film/path/view_line.h"
 #include "scene/expect_near.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/scene_file.h"
