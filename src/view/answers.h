@@ -4,18 +4,46 @@
 #include <exception>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "splotchcl/frame.h"
 #include "splotchcl/light_model.h"
 #include "splotchcl/particles.h"
+#include "splotchcl/scene.h"
+#include "splotchcl/snapshot.h"
+#include "splotchcl/vector.h"
 #include "view/film_maker.h"
 #include "view/frame_scheduler.h"
-#include "view/probe.h"
 #include "view/view_drawer.h"
 #include "view/view_scene.h"
 
 namespace splotchcl::view {
+
+// The place in space of what one sees at a place of the picture, in its pixels: the particle in the
+// middle, by depth, of the matter whose clouds reach there. Nothing where no cloud does.
+std::optional<Vec3> pick_particle(const Frame& frame, double x, double y);
+
+// What the line of sight through a place of a picture meets of one component.
+struct ProbedComponent {
+  std::string name;
+  double column = 0;  // of masses: mass over area, in the snapshot's units
+  std::optional<double>
+      mean;  // of the color field, weighted by the column; none: no field, no matter
+};
+
+struct Probe {
+  std::optional<Vec3> position;  // what the pointer would pick
+  std::optional<double> distance;
+  std::vector<ProbedComponent> components;
+};
+
+// At x, y in pixels from the upper left corner.
+Probe probe(const Frame& frame, double x, double y);
+
+// Some particles of each component, in turn: x, y, z, x, ...
+std::vector<double> some_places(const Frame& frame, std::size_t most);
 
 // How many particles have which values. Bins are equally wide after scaling.
 struct FieldHistogram {
@@ -64,5 +92,22 @@ std::string save_answer(std::uint64_t id, SaveResult result, const std::string& 
 // How far a film is, for all pages.
 std::string film_message(const FilmProgress& progress);
 std::string question_error(std::uint64_t id, const std::string& text);
+
+// What a page is told of the scene when it opens, as JSON: the value of every key that it may set,
+// its components with the fields that they could show, and all palettes with their colors; and
+// whether the picture may take the window's size and shape.
+std::string describe_scene(const Scene& opened, const Snapshot& snapshot, bool fills_window);
+
+// The same of a component that may be added to the scene: its keys are without "component.N.".
+std::string describe_component(const Component& component, const Snapshot& snapshot);
+
+// What another look, of which this is the scene, would set of the opened one: its light, and each
+// component that is of the same particles.
+std::string describe_look(const Scene& opened, const Scene& look);
+
+// What keyframes of the scene set, of what a page may set.
+std::set<std::string> keys_of_keyframes(const Scene& scene);
+// The values of such keys, as JSON.
+std::string describe_values(const Scene& scene, const std::set<std::string>& keys);
 
 }  // namespace splotchcl::view

@@ -8,8 +8,6 @@
 #include "finish/tone.h"
 #include "splotchcl/error.h"
 #include "view/answers.h"
-#include "view/probe.h"
-#include "view/scene_description.h"
 #include "view/view_scene.h"
 
 namespace splotchcl::view {

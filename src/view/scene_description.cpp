@@ -1,5 +1,3 @@
-#include "view/scene_description.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +16,7 @@
 #include "snapshot/field_names.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/palette_file.h"
+#include "view/answers.h"
 #include "view/requests/page_messages.h"
 #include "view/view_scene.h"
 

@@ -2,8 +2,7 @@
 #include "splotchcl/camera.h"
 #include "testing.h"
 #include "view/answers.h"
-#include "view/frame_sample.h"
-#include "view/probe.h"
+#include "view/view_drawer.h"
 
 namespace splotchcl::view {
 namespace {
