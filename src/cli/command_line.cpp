@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/command_builder.h"
-#include "cli/command_tree.h"
+#include "cli/pages.h"
 #include "cli/commands.h"
 #include "cli/processes.h"
 #include "cli/scene_options.h"
