@@ -2,7 +2,7 @@
 
 #include "map/shape.h"
 #include "python/bindings.h"
-#include "python/interface/arrays.h"
+#include "python/interface/casts.h"
 #include "python/progress.h"
 #include "python/source.h"
 #include "splotchcl/map.h"

@@ -4,7 +4,7 @@
 
 #include "image/picture_encoders.h"
 #include "python/bindings.h"
-#include "python/interface/arrays.h"
+#include "python/interface/casts.h"
 #include "python/progress.h"
 #include "splotchcl/compare.h"
 #include "splotchcl/frame_drawer.h"

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "python/interface/arrays.h"
+#include "python/interface/casts.h"
 #include "python/interface/functions.h"
 #include "splotchcl/array_snapshot.h"
 

@@ -146,7 +146,7 @@ KERNEL = """
 import sys, time
 from pathlib import Path
 from splotchcl import suggest
-from splotchcl._view_server import ViewServer
+from splotchcl._view import ViewServer
 suggest(sys.argv[1], size=(64, 48)).save(sys.argv[2])
 print(ViewServer(Path(sys.argv[2])).address, flush=True)
 time.sleep(1000)

@@ -27,9 +27,8 @@ from ._maps import Map, column
 from ._movie import Film, movie
 from ._render import Renderer, devices, reference, render, suggest
 from ._scene import Scene, UnknownKey
-from ._particle_type import ParticleType
 from ._particles import Particles
-from ._sources import Snapshot
+from ._sources import ParticleType, Snapshot
 from ._statistics import Histogram, Profile, histogram, profile
 from ._view import View
 

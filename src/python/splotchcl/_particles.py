@@ -10,8 +10,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_number, as_values, is_number
 from ._core import UsageError
-from ._particle_type import ParticleType
-from ._sources import Source
+from ._sources import ParticleType, Source
 from ._units import CarriedUnit, scale_factor_of, unit_of
 
 _STANDARD_TYPES = ("gas", "halo", "disk", "bulge", "stars", "boundary")

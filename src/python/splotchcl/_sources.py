@@ -1,4 +1,4 @@
-"""What is drawn: types of particles by name, of a snapshot's files."""
+"""What is drawn: types of particles by name, whose fields are arrays, of a snapshot's files."""
 
 from __future__ import annotations
 
@@ -7,9 +7,103 @@ from collections.abc import Iterator, KeysView, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from . import _core
 from ._core import UsageError
-from ._particle_type import ParticleType
+
+# Some files say by a number below 0 that a particle is in no halo.
+_IDENTIFIERS: dict[str, type[np.generic]] = {"id": np.uint64, "halo_id": np.int64}
+
+
+class ParticleType:
+    """The particles of one type of a snapshot; ``particles["density"]`` reads a field.
+
+    Iterating gives the names of the fields, but for `derived` ones; ``len(particles)`` is the
+    number of particles.
+    """
+
+    def __init__(self, source: _core.Source, name: str, described: dict[str, Any]) -> None:
+        self._source = source
+        self._described = described
+        self.name = name
+
+    def __len__(self) -> int:
+        return int(self._described["count"])
+
+    @property
+    def fields(self) -> dict[str, str]:
+        """Names of the fields, and their units ("" where the file does not say)."""
+        return {name: field[2] for name, field in self._described["fields"].items()}
+
+    @property
+    def derived(self) -> list[str]:
+        """Names of what follows from the fields and can be read as they are ("temperature")."""
+        return list(self._described["derived"])
+
+    def keys(self) -> KeysView[str]:
+        """Names of the fields."""
+        return self.fields.keys()
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.fields)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return [*self.fields, *self.derived]
+
+    def __contains__(self, field: object) -> bool:
+        """Whether there is such a field, by its name here or in the file, or it can be derived."""
+        if not isinstance(field, str):
+            return False
+        return self._canonical_name(field) in self.fields or field in self.derived
+
+    def __getitem__(self, field: str) -> np.ndarray[Any, Any]:
+        """A field, stored or derived ("temperature"), in the snapshot's unit; or a formula of fields.
+
+        Returns
+        -------
+        numpy.ndarray
+            float32 of shape (N,), or (N, 3) for vectors, read-only and without a copy where the
+            file allows it. Positions that the file holds in double precision are float64.
+            Identifiers of a file are exact: "id" is uint64, "halo_id" int64.
+
+        Raises
+        ------
+        UsageError, DataError
+            For a field that the type does not have, naming those that it has, and for identifiers
+            that the file has as no whole numbers.
+        """
+        if not isinstance(field, str):
+            raise UsageError(f"field {field!r}: expected a name, one of {', '.join(self.fields)}")
+        name = self._canonical_name(field)
+        is_of_arrays = isinstance(self._source, _core.ParticleArrays)  # which are floats already
+        if name in _IDENTIFIERS and name in self.fields and not is_of_arrays:
+            exact: np.ndarray[Any, Any] = np.asarray(
+                self._source.read_integers(self._number, field)
+            )
+            return exact.view(_IDENTIFIERS[name])
+        if name == "mass" and name not in self and self._described["mass"] is None:
+            raise UsageError(
+                f"field {field!r}: {self.name} has no masses, expected one of "
+                f"{', '.join([*self.fields, *self.derived])}"
+                + ("; set mass=..., an array or a number for all" if is_of_arrays else "")
+            )
+        values: np.ndarray[Any, Any] = np.asarray(self._source.read(self._number, field))
+        origin = np.array(self._source.position_origin())
+        if origin.any() and name == "position":
+            absolute: np.ndarray[Any, Any] = values + origin
+            return absolute
+        return values
+
+    @property
+    def _number(self) -> int:
+        return int(self._described["type"])
+
+    def _canonical_name(self, field: str) -> str:
+        return self._source.canonical_name(self._number, field)
+
+    def __repr__(self) -> str:
+        return f"<splotchcl {self.name}: {len(self)} particles, {', '.join(self.fields)}>"
 
 
 class Source:

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from ._core import UsageError
-from ._particle_type import ParticleType
-from ._sources import Source
+from ._sources import ParticleType, Source
 
 _Array = np.ndarray[Any, Any]
 
