@@ -1,5 +1,3 @@
-#include "formats/table_views.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "common/words.h"
+#include "formats/table.h"
 #include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"

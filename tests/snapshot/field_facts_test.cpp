@@ -1,4 +1,3 @@
-#include "formats/unit_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"
 #include "snapshot/snapshot_files.h"
@@ -97,31 +96,6 @@ TEST(MemberNames, OthersAreNotMistakenForThem) {
                            "snap.99999999999999999999"}) {
     EXPECT_FALSE(parse_member_name(name)) << name;
   }
-}
-
-TEST(UnitNames, AreComposedOfTheNamesThatPeopleUse) {
-  const BaseUnits gadget = {3.085678e21, 1.989e43, 1e5};
-  UnitPowers density;
-  density.mass = 1;
-  density.length = -3;
-  density.hubble = 2;
-  EXPECT_EQ(unit_name(density, gadget), "1e10 M_sun kpc^-3 h^2");
-  UnitPowers energy;
-  energy.velocity = 2;
-  EXPECT_EQ(unit_name(energy, gadget), "(km/s)^2");
-}
-
-TEST(UnitNames, OfAnUnnamedUnitIsItsSize) {
-  UnitPowers length;
-  length.length = 1;
-  EXPECT_EQ(unit_name(length, {2.5e20, 1, 1}), "2.5e+20 cm");
-}
-
-TEST(UnitNames, AreEmptyWhereTheFileSaysNothing) {
-  UnitPowers length;
-  length.length = 1;
-  EXPECT_EQ(unit_name(length, {}), "");
-  EXPECT_EQ(unit_name({}, {3.085678e21, 1.989e43, 1e5}), "");
 }
 
 TEST(ParticleTypes, TheNamesThatPeopleUseAreFoundInAnyCase) {

@@ -1,5 +1,3 @@
-#include "formats/gadget/gadget_block_layout.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "formats/gadget/gadget_blocks.h"
 #include "formats/stored_values.h"
 #include "splotchcl/error.h"
 

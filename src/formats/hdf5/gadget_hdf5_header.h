@@ -6,7 +6,7 @@
 
 #include "formats/gadget/gadget_header.h"
 #include "formats/hdf5/hdf5_file.h"
-#include "formats/unit_names.h"
+#include "formats/hdf5/hdf5_units.h"
 
 namespace splotchcl {
 

@@ -11,8 +11,8 @@
 
 #include "formats/hdf5/hdf5_column.h"
 #include "formats/hdf5/hdf5_formats.h"
+#include "formats/hdf5/hdf5_units.h"
 #include "formats/stored_values.h"
-#include "formats/unit_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

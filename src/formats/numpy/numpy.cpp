@@ -9,11 +9,9 @@
 #include <optional>
 
 #include "formats/numpy/numpy_array.h"
-#include "formats/numpy/zip_archive.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
 #include "formats/table_names.h"
-#include "formats/table_views.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

@@ -1,5 +1,3 @@
-#include "formats/text/halo_lists.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 
 #include "common/mapped_file.h"
 #include "common/words.h"
+#include "formats/halo_catalog.h"
 #include "formats/text/table_header.h"
 #include "formats/text/text_cells.h"
 #include "splotchcl/error.h"

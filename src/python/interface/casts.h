@@ -20,7 +20,6 @@
 
 // Python's limited interface, so that one module fits every Python from 3.10 on. pybind11 has no
 // such, and nanobind needs 3.12.
-
 namespace splotchcl::py {
 
 // What Python raised, on its way through C++.

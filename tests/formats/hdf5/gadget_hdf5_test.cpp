@@ -1,3 +1,4 @@
+#include "formats/hdf5/hdf5_units.h"
 #include "formats/hdf5/hdf5_values.h"
 #include "formats/hdf5/snapshot_hdf5_writer.h"
 #include "formats/snapshot_rows.h"
@@ -241,6 +242,31 @@ TEST_F(GadgetHdf5, AVirtualDatasetWithoutItsFileIsRefused) {
 TEST_F(GadgetHdf5, AnHdf5FileOfAnotherKindIsRefusedWithItsGroups) {
   make_group(create_hdf5(path_), "spectra");
   expect_snapshot(path_, {}, "refused NumPart_ThisFile | refused spectra");
+}
+
+TEST(UnitNames, AreComposedOfTheNamesThatPeopleUse) {
+  const BaseUnits gadget = {3.085678e21, 1.989e43, 1e5};
+  UnitPowers density;
+  density.mass = 1;
+  density.length = -3;
+  density.hubble = 2;
+  EXPECT_EQ(unit_name(density, gadget), "1e10 M_sun kpc^-3 h^2");
+  UnitPowers energy;
+  energy.velocity = 2;
+  EXPECT_EQ(unit_name(energy, gadget), "(km/s)^2");
+}
+
+TEST(UnitNames, OfAnUnnamedUnitIsItsSize) {
+  UnitPowers length;
+  length.length = 1;
+  EXPECT_EQ(unit_name(length, {2.5e20, 1, 1}), "2.5e+20 cm");
+}
+
+TEST(UnitNames, AreEmptyWhereTheFileSaysNothing) {
+  UnitPowers length;
+  length.length = 1;
+  EXPECT_EQ(unit_name(length, {}), "");
+  EXPECT_EQ(unit_name({}, {3.085678e21, 1.989e43, 1e5}), "");
 }
 
 }  // namespace
