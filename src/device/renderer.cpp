@@ -19,7 +19,7 @@
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
 #include "device/ranks/rank_share.h"
-#include "parallel/thread_pool.h"
+#include "parallel/for_blocks.h"
 #include "ranks/exchange.h"
 #include "ranks/spread_particles.h"
 #include "splotchcl/error.h"

@@ -8,7 +8,6 @@
 #include "formats/snapshot_format.h"
 #include "snapshot/derived_snapshots.h"
 #include "snapshot/field_names.h"
-#include "snapshot/named_units.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 

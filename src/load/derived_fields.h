@@ -1,11 +1,16 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "formula/formula.h"
+#include "formula/formula_units.h"
+#include "formula/formula_values.h"
+#include "load/type_fields.h"
 #include "splotchcl/snapshot.h"
 
 // Fields that follow from others.
@@ -50,5 +55,17 @@ std::string unit_of(const ParticleTypeInfo& type, const std::string& name);
 
 // The names of what can be derived for this type and is not a field of its own.
 std::vector<std::string> derivable_fields(const ParticleTypeInfo& type);
+
+// Formulas and conditions on the fields of a type; `key` is the scene's that has them.
+
+// Throws UsageError for a text that is no condition.
+Formula condition_on(const TypeFields& fields, const std::string& text, const std::string& key);
+
+// Refuses, before anything is read, fields that the type does not have and units that do not fit
+// each other.
+void check_formula(const TypeFields& fields, const Formula& formula, const std::string& key);
+
+std::shared_ptr<const FormulaValues> formula_values(const TypeFields& fields,
+                                                    const Formula& formula, const std::string& key);
 
 }  // namespace splotchcl

@@ -12,7 +12,7 @@
 #include "formats/halo_catalog.h"
 #include "formats/numpy/numpy_array.h"
 #include "formula/selection.h"
-#include "load/field_formulas.h"
+#include "load/derived_fields.h"
 #include "load/passes.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"

@@ -10,7 +10,6 @@
 #include "between/interpolation.h"
 #include "common/words.h"
 #include "load/derived_fields.h"
-#include "load/field_formulas.h"
 #include "load/missing_sizes.h"
 #include "load/passes.h"
 #include "load/periodic.h"

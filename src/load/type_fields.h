@@ -38,7 +38,7 @@ class TypeFields {
   Column smoothing_lengths() const;
   std::vector<std::uint64_t> ids() const;
 
-  // What formulas are made of (field_formulas.h): fields alone.
+  // What formulas are made of (derived_fields.h): fields alone.
   bool has_plain(const std::string& field) const;
   Column plain_scalars(const std::string& field, const std::string& key) const;
   FieldValues plain_values(const std::string& field, const std::string& key) const;

@@ -17,7 +17,6 @@
 #include "map/shape.h"
 #include "map/sky.h"
 #include "map/sums.h"
-#include "map/weighted_values.h"
 #include "snapshot/field_names.h"
 #include "snapshot/field_statistics.h"
 #include "splotchcl/error.h"

@@ -13,6 +13,7 @@
 #include "map/figure.h"
 #include "map/shape.h"
 #include "map/voxel_file.h"
+#include "modules/module_file.h"
 #include "splotchcl/error.h"
 #include "splotchcl/image_file.h"
 
@@ -385,6 +386,27 @@ void write_hdf5(const std::filesystem::path& temporary, const std::filesystem::p
     writer.write_text(writer.file(), key, text);
   values = {};
   writer.finish();
+}
+
+namespace {
+
+WriteVoxels& voxel_writer() {
+  static auto* const writer = reinterpret_cast<WriteVoxels*>(
+      module_entry("libsplotchcl_openvdb.so", voxel_writer_entry, ".vdb files need",
+                   "it is built where OpenVDB is installed; write .npy or .hdf5 instead"));
+  return *writer;
+}
+
+}  // namespace
+
+void require_voxel_files() {
+  (void)voxel_writer();
+}
+
+void write_voxel_file(const std::filesystem::path& path, const VoxelFile& voxels) {
+  std::string problem;
+  voxel_writer()(voxels, path.string(), problem);
+  if (!problem.empty()) throw DataError(path.string() + ": cannot be written: " + problem);
 }
 
 }  // namespace splotchcl

@@ -1,10 +1,9 @@
-#include "map/weighted_values.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "map/sums.h"
 #include "scene/constants.h"
 
 namespace splotchcl {

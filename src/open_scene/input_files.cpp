@@ -8,7 +8,7 @@
 #include "common/file_identity.h"
 #include "finish/finish_picture.h"
 #include "ranks/exchange.h"
-#include "scene_file/file_names.h"
+#include "scene_file/keys.h"
 #include "sequence/list_sequence.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

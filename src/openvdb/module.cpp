@@ -1,4 +1,4 @@
-// All that OpenVDB does, as a module that src/map/voxel_file.cpp loads.
+// All that OpenVDB does, as a module that src/map/map_files.cpp loads.
 #include <openvdb/openvdb.h>
 
 #include <cmath>

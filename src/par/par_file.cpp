@@ -10,7 +10,7 @@
 #include "common/mapped_file.h"
 #include "common/words.h"
 #include "par/translate.h"
-#include "scene_file/file_names.h"
+#include "scene_file/keys.h"
 #include "splotchcl/error.h"
 #include "splotchcl/par_file.h"
 #include "splotchcl/scene_file.h"

@@ -7,7 +7,6 @@
 #include "python/bindings.h"
 #include "python/progress.h"
 #include "python/source.h"
-#include "scene_file/file_names.h"
 #include "scene_file/keys.h"
 #include "scene_file/suggested.h"
 #include "splotchcl/load.h"

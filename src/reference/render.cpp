@@ -7,12 +7,161 @@
 #include <thread>
 #include <vector>
 
-#include "parallel/in_background.h"
-#include "reference/profile.h"
+#include "parallel/ordered_tasks.h"
 #include "scene/projection.h"
 #include "splotchcl/reference.h"
 
 namespace splotchcl::reference {
+namespace {
+
+// The mean of exp(-(t - centre)^2 / sigma^2) for t from i to i + 1: one axis of a pixel's
+// mean, since the Gaussian and the pixel are both products of their axes.
+double mean_over_pixel(double center, double sigma, int i) {
+  constexpr double half_sqrt_pi = 0.886226925452758014;
+  const double low = (i - center) / sigma;
+  const double high = (i + 1 - center) / sigma;
+  // Both ends on one side: erf is close to +-1 there and its differences lose the digits
+  // that erfc keeps.
+  if (low > 0) return half_sqrt_pi * sigma * (std::erfc(low) - std::erfc(high));
+  if (high < 0) return half_sqrt_pi * sigma * (std::erfc(-high) - std::erfc(-low));
+  return half_sqrt_pi * sigma * (std::erf(high) - std::erf(low));
+}
+
+double value_at_pixel_center(double center, double sigma, int i) {
+  const double distance = (i + 0.5 - center) / sigma;
+  return std::exp(-distance * distance);
+}
+
+// One axis of the shape in pixel i; the shape is the product of its two axes where the
+// kernel does not cut it.
+double axis_profile(double center, double sigma, int i, Sampling sampling) {
+  return sampling == Sampling::mean ? mean_over_pixel(center, sigma, i)
+                                    : value_at_pixel_center(center, sigma, i);
+}
+
+// The shape of a splat on a face of a cube in pixel (x, y): peak * exp(-squared).
+struct FaceShape {
+  double peak = 0, squared = 0;
+};
+
+FaceShape shape_on_face(const Splat& splat, int x, int y) {
+  const Splat::OnFace& face = splat.on_face;
+  const double dx = x + 0.5 - splat.x, dy = y + 0.5 - splat.y;
+  const double across = (x + 0.5 - face.middle_x) / face.focal_pixels;
+  const double along = (y + 0.5 - face.middle_y) / face.focal_pixels;
+  const double k = 1 + across * across + along * along, g = face.squared_width;
+  const double m = g * k + face.footprint, turned = across * dy - along * dx;
+  FaceShape shape;
+  shape.peak = g * k / m;
+  shape.squared = (dx * dx + dy * dy + turned * turned) / (m * face.secant2);
+  return shape;
+}
+
+// Whether kernel.cut takes the splat's light from the pixel: its centre is farther than
+// cut * sigma. With pixel means the pixel that holds the splat's centre keeps its light
+// however small the splat is, or all clouds far below a pixel would vanish.
+bool is_cut(const Splat& splat, int x, int y, const KernelSettings& kernel) {
+  if (!kernel.cut) return false;
+  if (splat.on_face.focal_pixels > 0)
+    return shape_on_face(splat, x, y).squared > *kernel.cut * *kernel.cut;
+  const double dx = (x + 0.5 - splat.x) / splat.stretch;
+  const double dy = y + 0.5 - splat.y;
+  const double radius = *kernel.cut * splat.sigma;
+  if (dx * dx + dy * dy <= radius * radius) return false;
+  const bool holds_center = std::floor(splat.x) == x && std::floor(splat.y) == y;
+  return !(kernel.sampling == Sampling::mean && holds_center);
+}
+
+}  // namespace
+
+void sort(std::vector<Splat>& splats, const SortOrder& order) {
+  if (order.descending) {
+    std::stable_sort(splats.begin(), splats.end(), [](const Splat& a, const Splat& b) {
+      return a.key != b.key ? a.key > b.key : !a.is_around && b.is_around;
+    });
+  } else {
+    std::stable_sort(splats.begin(), splats.end(), [](const Splat& a, const Splat& b) {
+      return a.key != b.key ? a.key < b.key : !a.is_around && b.is_around;
+    });
+  }
+}
+
+namespace {
+
+// phi(y) = (1 - exp(-y)) / y. The series' next term, y^3 / 24, is below 1e-13 there.
+double phi(double y) {
+  if (y < 1e-4) return 1 - y / 2 + y * y / 6;
+  return -std::expm1(-y) / y;
+}
+
+// The layer of a column X of one splat: tau = A X, S = E X phi(tau).
+Layer layer_of(const Splat& splat, double column) {
+  Layer layer;
+  for (int c = 0; c < 3; ++c) {
+    layer.optical_depth[c] = splat.absorption[c] * column;
+    layer.source[c] = splat.emission[c] * column * phi(layer.optical_depth[c]);
+  }
+  return layer;
+}
+
+}  // namespace
+
+double ray_shape(const Vec3& center, const Vec3& direction) {
+  double t = 0, distance2 = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    t += center.a[axis] * direction.a[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double beside = center.a[axis] - t * direction.a[axis];
+    distance2 += beside * beside;
+  }
+  return std::exp(-distance2) * std::erfc(-t) / 2;
+}
+
+double shape(const Splat& splat, int x, int y, const KernelSettings& kernel) {
+  if (is_cut(splat, x, y, kernel)) return 0;
+  if (splat.on_face.focal_pixels > 0) {
+    const FaceShape on_face = shape_on_face(splat, x, y);
+    return on_face.peak * std::exp(-on_face.squared);
+  }
+  return axis_profile(splat.x, splat.stretch * splat.sigma, x, kernel.sampling) *
+         axis_profile(splat.y, splat.sigma, y, kernel.sampling);
+}
+
+Layer over(const Layer& near_layer, const Layer& far_layer) {
+  Layer both;
+  for (int c = 0; c < 3; ++c) {
+    both.optical_depth[c] = near_layer.optical_depth[c] + far_layer.optical_depth[c];
+    both.source[c] =
+        near_layer.source[c] + std::exp(-near_layer.optical_depth[c]) * far_layer.source[c];
+  }
+  return both;
+}
+
+namespace {
+
+// X per unit weight of a splat that may be of a cloud around the camera, in a pixel that looks in
+// this direction.
+double shape_around(const Splat& splat, int x, int y, const Vec3& direction,
+                    const KernelSettings& kernel) {
+  double column = splat.splat_part > 0 ? splat.splat_part * shape(splat, x, y, kernel) : 0;
+  if (splat.ray_part > 0) column += splat.ray_part * ray_shape(splat.center, direction);
+  return column;
+}
+
+}  // namespace
+
+Layer composite_pixel(const std::vector<Splat>& splats, int x, int y, const Frame& frame) {
+  const Vec3 direction = frame.projection == Projection::orthographic
+                             ? Vec3{}
+                             : direction_at(x + 0.5, y + 0.5, frame.camera, frame.projection);
+  Layer pixel;
+  for (const Splat& splat : splats) {
+    const double column = splat.weight * shape_around(splat, x, y, direction, frame.kernel);
+    if (column > 0) pixel = over(pixel, layer_of(splat, column));
+  }
+  return pixel;
+}
+
 namespace {
 
 // Pixels first <= i < end of one axis.

@@ -12,7 +12,6 @@
 #include "common/mapped_file.h"
 #include "scene_file/builder.h"
 #include "scene_file/check.h"
-#include "scene_file/file_names.h"
 #include "scene_file/keys.h"
 #include "scene_file/suggested.h"
 #include "snapshot/snapshot_files.h"

@@ -5,7 +5,7 @@
 #include <unordered_set>
 
 #include "formats/snapshot_format.h"
-#include "parallel/in_background.h"
+#include "parallel/ordered_tasks.h"
 #include "sequence/interpolated_snapshot.h"
 #include "sequence/list_sequence.h"
 #include "sequence/type_path.h"

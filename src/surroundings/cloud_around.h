@@ -10,7 +10,7 @@
 
 // Clouds around the camera (Frame::through_clouds): what is in front of the camera along each ray,
 // where a splat would show a cloud's whole column or none. docs/projections.md has the formulas.
-// The reference renderer has a copy of its own on purpose (src/reference/composite.cpp).
+// The reference renderer has a copy of its own on purpose (src/reference/render.cpp).
 namespace splotchcl {
 
 // Distances from the camera in sigma. Up to the first a cloud is what a ray finds, from the second

@@ -15,7 +15,7 @@
 #include "film/follow/find_followed.h"
 #include "film/movie/encoder.h"
 #include "open_scene/input_files.h"
-#include "scene_file/file_names.h"
+#include "scene_file/keys.h"
 #include "scene_file/suggested.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/camera.h"

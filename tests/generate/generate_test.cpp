@@ -1,7 +1,7 @@
 #include "splotchcl/generate.h"
 
 #include "generate/random.h"
-#include "generate/waves.h"
+#include "generate/web.h"
 #include "splotchcl/snapshot.h"
 #include "splotchcl/snapshot_file.h"
 #include "testing.h"

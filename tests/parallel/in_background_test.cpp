@@ -1,5 +1,3 @@
-#include "parallel/in_background.h"
-
 #include <dlfcn.h>
 #include <pthread.h>
 
@@ -7,6 +5,7 @@
 #include <cerrno>
 #include <thread>
 
+#include "parallel/ordered_tasks.h"
 #include "testing.h"
 
 namespace {

@@ -7,7 +7,6 @@
 
 #include "parallel/available_memory.h"
 #include "parallel/for_blocks.h"
-#include "parallel/thread_pool.h"
 #include "testing.h"
 
 namespace splotchcl::test {

@@ -1,5 +1,5 @@
 #include "publish/light_splats.h"
-#include "publish/packed_splats.h"
+#include "publish/web_page.h"
 #include "testing.h"
 
 namespace splotchcl::test {

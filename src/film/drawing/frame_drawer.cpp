@@ -14,7 +14,7 @@
 #include "common/guards.h"
 #include "common/words.h"
 #include "film/drawing/tree_choice.h"
-#include "parallel/in_background.h"
+#include "parallel/ordered_tasks.h"
 #include "pictures/other_scenes.h"
 #include "ranks/spread_particles.h"
 #include "splotchcl/error.h"

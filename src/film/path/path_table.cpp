@@ -16,7 +16,6 @@
 #include "common/mapped_file.h"
 #include "common/words.h"
 #include "scene/scalar_map.h"
-#include "scene_file/file_names.h"
 #include "scene_file/keys.h"
 #include "scene_file/setting.h"
 #include "scene_file/values.h"

@@ -1,11 +1,10 @@
-#include "formats/hdf5/hdf5_links.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "common/mapped_file.h"
 #include "common/words.h"
+#include "formats/hdf5/hdf5_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
