@@ -11,7 +11,7 @@
 #include "common/guards.h"
 #include "common/output_files.h"
 #include "formula/selection.h"
-#include "map/named_place.h"
+#include "map/place.h"
 #include "map/shape.h"
 #include "open_scene/input_files.h"
 #include "snapshot/field_names.h"

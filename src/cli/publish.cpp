@@ -15,7 +15,6 @@
 #include "finish/ticks.h"
 #include "open_scene/input_files.h"
 #include "publish/light_splats.h"
-#include "publish/splat_files.h"
 #include "publish/viewer_splats.h"
 #include "publish/web_page.h"
 #include "splotchcl/error.h"
@@ -49,8 +48,8 @@ Scene as_compared(Scene scene) {
   return scene;
 }
 
-// Writes a file of splats for other viewers (publish/splat_files.h), and says how far these show it
-// from the frame, which is the scene's as it is compared.
+// Writes a file of splats for other viewers (publish/viewer_splats.h), and says how far these show
+// it from the frame, which is the scene's as it is compared.
 void publish_splats(const std::filesystem::path& path, const Scene& scene, const Frame& frame,
                     const SnapshotInfo& snapshot, const std::vector<LightSplat>& splats,
                     std::size_t particles, FrameDrawer& drawer, Console& console) {

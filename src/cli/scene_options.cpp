@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "cli/command_builder.h"
-#include "map/named_place.h"
+#include "map/place.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl::cli {

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "formats/stored_values.h"
-#include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "snapshot/unit.h"

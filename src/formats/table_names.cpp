@@ -1,9 +1,8 @@
-#include "formats/table_names.h"
-
 #include <algorithm>
 #include <array>
 
 #include "common/words.h"
+#include "formats/table.h"
 #include "snapshot/field_names.h"
 
 namespace splotchcl {

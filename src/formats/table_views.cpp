@@ -9,7 +9,6 @@
 
 #include "common/words.h"
 #include "formats/table.h"
-#include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 

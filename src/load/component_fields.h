@@ -8,7 +8,7 @@
 #include "load/placement.h"
 #include "load/select_particles.h"
 #include "load/type_fields.h"
-#include "scene/particle_pass.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/snapshot.h"
 
 namespace splotchcl {

@@ -12,7 +12,7 @@
 
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
-#include "load/periodic.h"
+#include "load/placement.h"
 #include "snapshot/load_memory.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "scene/particle_pass.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/communicator.h"
 #include "splotchcl/snapshot.h"
 

@@ -11,8 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include "load/component_boxes.h"
+#include "load/passes.h"
+#include "parallel/for_blocks.h"
 #include "scene/constants.h"
 #include "scene/particle_columns.h"
+#include "scene/statistics.h"
+#include "snapshot/load_memory.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
@@ -121,6 +127,162 @@ std::optional<std::string> tell_rounded_positions(const DrawnComponent& componen
       "their positions to more than {} of their smoothing length, at worst {:.2g}; objects far "
       "apart keep their shapes in snapshots of their own",
       component.name, all.count, particles.count, too_coarse, all.worst);
+}
+
+BoxSides periodic_box(const PeriodicSettings& settings, const SnapshotInfo& snapshot) {
+  if (settings.box) return *settings.box;
+  if (snapshot.box_size) return *snapshot.box_size;
+  throw UsageError("key periodic.wrap: found true, but " +
+                   (snapshot.files.empty() ? "the snapshot" : snapshot.files.front().string()) +
+                   " does not say the size of a box, expected one; set periodic.box");
+}
+
+bool is_in_the_box(const Component& component) {
+  return component.snapshot.empty() && !component.placement.moves();
+}
+
+void wrap_around(const Vec3& center, const BoxSides& box, Particles& particles, bool streams) {
+  const Column& position = particles.position;
+  if (!position.is_array()) return;
+  const Vec3 shift = particles.origin - center;  // from stored positions to distances from it
+  const auto wrap = [position, shift, box](std::size_t begin, std::size_t end, float* out) {
+    const ColumnStretch stretch(position, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double distance = static_cast<double>(stretch[i]) + shift.a[i % 3];
+      *out++ = static_cast<float>(nearest_image(distance, box[i % 3]));
+    }
+  };
+  if (streams || is_streamed(position)) {
+    particles.position = make_column(position.size(), true, wrap);
+  } else {
+    std::vector<float> wrapped(position.size());
+    for_blocks(position.size(), 3 << 16, [&](std::size_t begin, std::size_t end) {
+      wrap(begin, end, wrapped.data() + begin);
+    });
+    particles.position = Column::owning(std::move(wrapped));
+  }
+  if (particles.boxes) particles.boxes = wrapped_boxes(*particles.boxes, shift, box);
+  particles.origin = center;
+}
+
+namespace {
+
+// Positions that were wrapped in single precision may lie on both faces.
+constexpr double rounding = 1e-6;
+
+// Extents of every `stride`-th particle.
+PositionExtent look_at_positions(const Snapshot& snapshot, int type, std::size_t stride) {
+  const Column position = snapshot.read(type, "position");
+  const Vec3 origin = snapshot.position_origin();
+  const auto look = [&](const ParticleRun& run, std::vector<PositionExtent>& found) {
+    PositionExtent extent;
+    const auto take = [&](const float x, const float y, const float z) {
+      const double place[] = {x, y, z};
+      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        extent.lowest.a[axis] = std::min(extent.lowest.a[axis], place[axis]);
+        extent.highest.a[axis] = std::max(extent.highest.a[axis], place[axis]);
+      }
+      ++extent.particles;
+    };
+    if (stride > 1) {
+      for (std::size_t i = first_sampled(run, stride); i < run.end; i += stride)
+        take(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
+    } else {
+      for_stretches(run, [&](std::size_t begin, std::size_t end) {
+        const ColumnStretch stretch(position, 3 * begin, 3 * end);
+        for (std::size_t i = begin; i < end; ++i)
+          take(stretch[3 * i], stretch[3 * i + 1], stretch[3 * i + 2]);
+      });
+    }
+    found.push_back(extent);
+  };
+  PositionExtent all;
+  for (const PositionExtent& extent : pass_over(snapshot, type).collect<PositionExtent>(look))
+    all.take(extent);
+  if (all.is_empty()) return all;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all.lowest.a[axis] += origin.a[axis];
+    all.highest.a[axis] += origin.a[axis];
+  }
+  return all;
+}
+
+PositionExtent sampled_extent(const Snapshot& snapshot, const ParticleTypeInfo& type) {
+  constexpr std::size_t most_looked_at = 200000;
+  const std::size_t stride = sample_stride(static_cast<std::size_t>(type.count), most_looked_at);
+  return look_at_positions(snapshot, type.type, stride);
+}
+
+}  // namespace
+
+PositionExtent::PositionExtent() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  lowest = {{infinity, infinity, infinity}};
+  highest = {{-infinity, -infinity, -infinity}};
+}
+
+void PositionExtent::take(const PositionExtent& other) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lowest.a[axis] = std::min(lowest.a[axis], other.lowest.a[axis]);
+    highest.a[axis] = std::max(highest.a[axis], other.highest.a[axis]);
+  }
+  particles += other.particles;
+}
+
+PositionExtent extent_of_type(const Snapshot& snapshot, int type) {
+  return snapshot.memory().get<PositionExtent>(
+      fmt::format("extent of type {}", type), [&] { return look_at_positions(snapshot, type, 1); });
+}
+
+bool lies_in_one_period(const PositionExtent& extent, const BoxSides& box) {
+  if (extent.is_empty()) return true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double far = std::max(std::abs(extent.lowest.a[axis]), std::abs(extent.highest.a[axis]));
+    if (extent.span(axis) > box[axis] + rounding * std::max(box[axis], far)) return false;
+  }
+  return true;
+}
+
+bool fills_box(const PositionExtent& extent, const BoxSides& box, std::size_t axis) {
+  constexpr std::uint64_t few = 64;
+  constexpr double much = 0.5;  // of a side: 64 particles of a full box span less once in 1e17
+  return extent.particles < few || extent.span(axis) >= much * box[axis];
+}
+
+Vec3 middle_of_period(const PositionExtent& extent, const BoxSides& box) {
+  const auto lies_from = [&](double begin) {  // in sides
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double slack = rounding * box[axis], first = begin * box[axis];
+      if (extent.lowest.a[axis] < first - slack ||
+          extent.highest.a[axis] > first + box[axis] + slack)
+        return false;
+    }
+    return true;
+  };
+  const Vec3& sides = box.vector();
+  if (lies_from(0)) return Vec3{{0.5 * sides.a[0], 0.5 * sides.a[1], 0.5 * sides.a[2]}};
+  if (lies_from(-0.5)) return Vec3{{0, 0, 0}};
+  Vec3 middle;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    middle.a[axis] = 0.5 * (extent.lowest.a[axis] + extent.highest.a[axis]);
+  return middle;
+}
+
+PositionExtent find_extent(const Snapshot& snapshot, const std::vector<int>& types) {
+  PositionExtent extent;
+  for (const ParticleTypeInfo& type : snapshot.info().types) {
+    const bool is_shown = std::find(types.begin(), types.end(), type.type) != types.end();
+    extent.take(is_shown ? extent_of_type(snapshot, type.type) : sampled_extent(snapshot, type));
+  }
+  return extent;
+}
+
+std::string tell_box_is_not_used(const BoxSides& box, const PositionExtent& extent) {
+  return fmt::format(
+      "the box of {} in the header is not used, since particles span {:.4g} x {:.4g} x {:.4g}: "
+      "they are not periodic in it",
+      box.text(), extent.span(0), extent.span(1), extent.span(2));
 }
 
 }  // namespace splotchcl

@@ -1,12 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "scene/particle_pass.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/particles.h"
+#include "splotchcl/periodic.h"
+#include "splotchcl/scene.h"
 #include "splotchcl/selection.h"
+#include "splotchcl/snapshot.h"
 
 namespace splotchcl {
 
@@ -31,5 +36,61 @@ Vec3 rotated(const Vec3& v, const Vec3& axis, double angle_degrees);
 // them.
 std::optional<std::string> tell_rounded_positions(const DrawnComponent& component,
                                                   const ParticlePass& pass);
+
+// The box that periodic.wrap uses. Throws UsageError where neither the scene nor
+// the snapshot says one.
+BoxSides periodic_box(const PeriodicSettings& settings, const SnapshotInfo& snapshot);
+
+// Whether it is a part of the periodic box: what is placed elsewhere is not.
+bool is_in_the_box(const Component& component);
+
+// Moves each particle to its periodic image nearest to `center`, along each axis by itself:
+// d = x - center becomes d - side * round(d / side), in double precision. The center becomes
+// the particles' origin. Values that are not finite stay so. Positions are held in memory, or made
+// as they are wanted.
+void wrap_around(const Vec3& center, const BoxSides& box, Particles& particles,
+                 bool streams = false);
+
+// Whether particles lie in the periodic box that their snapshot's header names: a header's box may
+// be that of the run that a cutout is of, or mean nothing.
+
+// Between which coordinates particles lie; lowest above highest where there are none.
+struct PositionExtent {
+  PositionExtent();
+
+  Vec3 lowest, highest;
+  std::uint64_t particles = 0;  // at finite positions
+
+  bool is_empty() const { return particles == 0; }
+  double span(std::size_t axis) const { return highest.a[axis] - lowest.a[axis]; }
+  void take(const PositionExtent& other);
+};
+
+// Of all particles of a type. Found once for a snapshot.
+PositionExtent extent_of_type(const Snapshot& snapshot, int type);
+
+// Whether all lie within one period, wherever that begins: along each axis they span no more than
+// its side, but for the rounding of single precision.
+bool lies_in_one_period(const PositionExtent& extent, const BoxSides& box);
+
+// Whether they reach over half of the box along the axis, so that what shows the box shows them.
+// Too few to tell do.
+bool fills_box(const PositionExtent& extent, const BoxSides& box, std::size_t axis);
+
+// The middle of the period that the particles lie in: of the box from 0, of one around 0, or else
+// of the particles themselves.
+Vec3 middle_of_period(const PositionExtent& extent, const BoxSides& box);
+
+// The periodic box of particles, and where they lie in it.
+struct PeriodicRegion {
+  std::optional<BoxSides> box;  // unset: there is none
+  PositionExtent extent;        // of the snapshot's particles, as far as they were looked at
+};
+
+// All particles of these types are looked at, and a sample of each other type.
+PositionExtent find_extent(const Snapshot& snapshot, const std::vector<int>& types);
+
+// "the box of 1 in the header is not used: ..."
+std::string tell_box_is_not_used(const BoxSides& box, const PositionExtent& extent);
 
 }  // namespace splotchcl

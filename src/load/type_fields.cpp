@@ -12,7 +12,7 @@
 #include "load/derived_fields.h"
 #include "load/missing_sizes.h"
 #include "load/passes.h"
-#include "load/periodic.h"
+#include "load/placement.h"
 #include "parallel/for_blocks.h"
 #include "ranks/spread_particles.h"
 #include "scene/particle_columns.h"

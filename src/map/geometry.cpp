@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "load/periodic.h"
+#include "load/placement.h"
 #include "scene/constants.h"
 #include "scene/particle_rules.h"
 #include "splotchcl/error.h"

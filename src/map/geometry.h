@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "load/periodic.h"
+#include "load/placement.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
 

@@ -12,7 +12,7 @@
 #include "common/words.h"
 #include "formula/selection.h"
 #include "load/type_fields.h"
-#include "map/named_place.h"
+#include "map/place.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"

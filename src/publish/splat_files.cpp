@@ -1,5 +1,3 @@
-#include "publish/splat_files.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "publish/viewer_splats.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

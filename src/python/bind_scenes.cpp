@@ -1,6 +1,6 @@
 #include <mutex>
 
-#include "film/follow/find_followed.h"
+#include "film/follow/followed_particles.h"
 #include "film/path/film_path.h"
 #include "formula/formula.h"
 #include "open_scene/shown_snapshot.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "scene/particle_pass.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/communicator.h"
 #include "splotchcl/particles.h"
 

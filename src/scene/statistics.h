@@ -2,10 +2,11 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "scene/ceil_divide.h"
-#include "scene/particle_pass.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/particles.h"
 #include "splotchcl/scene.h"
@@ -60,5 +61,22 @@ std::optional<ValueRange> percentile_range(const Column& column, Scaling scaling
 std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame,
                                             const ParticlePass& pass);
 std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame);
+
+// Minimum, maximum and mean are of the finite values; 0 where there are none.
+struct FieldStatistics {
+  std::size_t count = 0;  // all values, three for each vector
+  std::size_t bad = 0;    // not-a-number or infinite
+  std::size_t infinite = 0;
+  double minimum = 0;
+  double maximum = 0;
+  double mean = 0;
+};
+
+// What the user should know of infinite values: few files have any, but many have numbers that are
+// read as such.
+std::string advice_on_infinite_values();
+
+// Of all values of a column, in one pass. A uniform column counts as one value.
+FieldStatistics find_statistics(const Column& values);
 
 }  // namespace splotchcl

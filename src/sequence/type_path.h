@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "between/id_match.h"
 #include "between/interpolation.h"
 #include "splotchcl/sequence.h"
 #include "splotchcl/snapshot.h"

@@ -12,7 +12,7 @@
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
 #include "common/words.h"
-#include "film/follow/find_followed.h"
+#include "film/follow/followed_particles.h"
 #include "film/movie/encoder.h"
 #include "open_scene/input_files.h"
 #include "scene_file/keys.h"

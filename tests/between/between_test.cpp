@@ -1,7 +1,6 @@
 // Between two moments: what is interpolated, and how.
 #include <atomic>
 
-#include "between/id_match.h"
 #include "between/interpolation.h"
 #include "device/frame/particle_store.h"
 #include "splotchcl/particles.h"

@@ -1,8 +1,8 @@
 // Real snapshots of public codes. What is expected of them was found with other programs.
 #include "formats/snapshot_checks.h"
 #include "real_snapshots.h"
+#include "scene/statistics.h"
 #include "smoothing/smoothing_lengths.h"
-#include "snapshot/field_statistics.h"
 #include "splotchcl/snapshot_file.h"
 #include "testing.h"
 

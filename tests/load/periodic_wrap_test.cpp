@@ -1,4 +1,3 @@
-#include "load/periodic.h"
 #include "load/placement.h"
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/load.h"

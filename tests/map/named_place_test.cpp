@@ -1,7 +1,6 @@
 // Places that the data say: of pictures and maps.
-#include "map/named_place.h"
-
 #include "map/gas.h"
+#include "map/place.h"
 #include "testing.h"
 
 namespace splotchcl::test {

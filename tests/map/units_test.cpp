@@ -1,7 +1,7 @@
 #include "map/gas.h"
 #include "map/map_files.h"
 #include "map/map_units.h"
-#include "map/sky.h"
+#include "map/place.h"
 #include "snapshot/unit.h"
 #include "splotchcl/map.h"
 #include "testing.h"

@@ -1,5 +1,3 @@
-#include "publish/splat_files.h"
-
 #include "frames/random_frames.h"
 #include "publish/viewer_splats.h"
 #include "splotchcl/reference.h"

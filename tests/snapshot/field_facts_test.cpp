@@ -1,5 +1,5 @@
+#include "scene/statistics.h"
 #include "snapshot/field_names.h"
-#include "snapshot/field_statistics.h"
 #include "snapshot/snapshot_files.h"
 #include "snapshot/unit.h"
 #include "testing.h"

@@ -12,7 +12,7 @@
 #include "splotchcl/untrusted_file.h"
 #include "system/system.h"
 #include "testing.h"
-#include "untrusted/child_process.h"
+#include "untrusted/untrusted_file.h"
 
 namespace splotchcl::test {
 namespace {

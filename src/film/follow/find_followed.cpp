@@ -1,5 +1,3 @@
-#include "film/follow/find_followed.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

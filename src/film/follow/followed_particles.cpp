@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "load/periodic.h"
+#include "load/placement.h"
 #include "load/select_particles.h"
 #include "load/type_fields.h"
 #include "scene/constants.h"

@@ -16,9 +16,8 @@
 
 #include "common/file_identity.h"
 #include "common/words.h"
-#include "film/follow/find_followed.h"
 #include "film/follow/followed_particles.h"
-#include "film/path/simplify_path.h"
+#include "film/path/film_path.h"
 #include "load/passes.h"
 #include "load/suggest_camera.h"
 #include "scene_file/values.h"

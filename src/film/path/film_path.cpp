@@ -15,7 +15,6 @@
 #include "film/path/followed_way.h"
 #include "film/path/keyframe_tracks.h"
 #include "film/path/path_table.h"
-#include "film/path/simplify_path.h"
 #include "film/path/view_line.h"
 #include "scene/constants.h"
 #include "scene_file/setting.h"

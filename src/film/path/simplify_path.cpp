@@ -1,5 +1,3 @@
-#include "film/path/simplify_path.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "film/path/film_path.h"
 #include "film/path/keyframe_tracks.h"
 #include "film/path/view_line.h"
 #include "scene_file/setting.h"

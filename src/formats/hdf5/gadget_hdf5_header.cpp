@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "formats/hdf5/hdf5_columns.h"
+#include "formats/hdf5/hdf5_table.h"
 #include "formats/hdf5/hdf5_units.h"
 #include "scene/constants.h"
 #include "snapshot/field_names.h"

@@ -1,5 +1,3 @@
-#include "formats/hdf5/hdf5_columns.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,8 +6,9 @@
 #include <utility>
 
 #include "common/words.h"
+#include "formats/hdf5/hdf5_table.h"
 #include "formats/snapshot_format.h"
-#include "formats/table_names.h"
+#include "formats/table.h"
 #include "snapshot/field_names.h"
 
 namespace splotchcl {

@@ -8,7 +8,6 @@
 #include "formats/hdf5/hdf5_table.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
-#include "formats/table_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"

@@ -15,9 +15,8 @@
 
 #include "common/words.h"
 #include "formats/hdf5/hdf5_column.h"
-#include "formats/hdf5/hdf5_columns.h"
 #include "formats/hdf5/hdf5_units.h"
-#include "formats/table_names.h"
+#include "formats/table.h"
 #include "formats/text/table_header.h"
 #include "splotchcl/error.h"
 

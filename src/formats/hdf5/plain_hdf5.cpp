@@ -16,7 +16,6 @@
 #include "formats/hdf5/hdf5_formats.h"
 #include "formats/hdf5/hdf5_table.h"
 #include "formats/table.h"
-#include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"
 #include "splotchcl/error.h"

@@ -11,7 +11,6 @@
 #include "formats/numpy/numpy_array.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
-#include "formats/table_names.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

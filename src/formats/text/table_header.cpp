@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "common/words.h"
-#include "formats/table_names.h"
+#include "formats/table.h"
 #include "formats/text/text_cells.h"
 #include "snapshot/field_names.h"
 #include "snapshot/unit.h"

@@ -9,7 +9,7 @@
 
 #include "common/words.h"
 #include "formats/snapshot_format.h"
-#include "formats/table_names.h"
+#include "formats/table.h"
 #include "formats/text/table_header.h"
 #include "splotchcl/error.h"
 

@@ -10,7 +10,6 @@
 
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
-#include "formats/table_names.h"
 #include "formats/text/table_layout.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

@@ -2,7 +2,6 @@
 // most of the same particles are, from the mean of all on.
 #include <boost/qvm/vec_operations.hpp>
 
-#include "film/follow/find_followed.h"
 #include "film/follow/followed_particles.h"
 #include "film/frames/film_scene.h"
 #include "splotchcl/camera.h"

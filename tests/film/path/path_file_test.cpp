@@ -5,7 +5,6 @@
 
 #include "film/path/film_path.h"
 #include "film/path/path_messages.h"
-#include "film/path/simplify_path.h"
 #include "splotchcl/scene_file.h"
 #include "testing.h"
 
