@@ -12,7 +12,6 @@
 #include "map/geometry.h"
 #include "map/map_units.h"
 #include "map/place.h"
-#include "map/placed_particles.h"
 #include "map/quantity.h"
 #include "map/shape.h"
 #include "map/sums.h"

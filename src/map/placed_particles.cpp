@@ -1,5 +1,3 @@
-#include "map/placed_particles.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "map/geometry.h"
 #include "scene/constants.h"
 #include "splotchcl/error.h"
 

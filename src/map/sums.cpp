@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "map/placed_particles.h"
+#include "map/geometry.h"
 #include "scene/constants.h"
 
 namespace splotchcl {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "map/geometry.h"
-#include "map/placed_particles.h"
 #include "map/quantity.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/views.h"

@@ -9,7 +9,7 @@
 #include "finish/finish_picture.h"
 #include "ranks/exchange.h"
 #include "scene_file/keys.h"
-#include "sequence/list_sequence.h"
+#include "sequence/snapshot_source.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette_file.h"

@@ -12,7 +12,7 @@
 #include "open_scene/shown_snapshot.h"
 #include "ranks/exchange.h"
 #include "scene_file/suggested.h"
-#include "sequence/list_sequence.h"
+#include "sequence/snapshot_source.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

@@ -10,7 +10,6 @@
 #include "common/words.h"
 #include "formats/numpy/numpy_array.h"
 #include "palette/palette_file.h"
-#include "palette/palette_lines.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

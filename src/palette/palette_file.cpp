@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "common/words.h"
-#include "palette/palette_lines.h"
 #include "splotchcl/error.h"
 #include "splotchcl/palette.h"
 

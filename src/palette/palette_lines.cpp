@@ -1,5 +1,3 @@
-#include "palette/palette_lines.h"
-
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
@@ -8,6 +6,7 @@
 #include <cstddef>
 #include <system_error>
 
+#include "palette/palette_file.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

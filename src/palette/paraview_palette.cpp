@@ -11,7 +11,6 @@
 
 #include "common/words.h"
 #include "palette/palette_file.h"
-#include "palette/palette_lines.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {

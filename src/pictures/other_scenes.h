@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pictures/units_of_white.h"
-#include "sequence/film_snapshots.h"
+#include "sequence/snapshot_source.h"
 #include "splotchcl/picture.h"
 #include "splotchcl/scene.h"
 

@@ -16,6 +16,7 @@
 #include "formats/snapshot_format.h"
 #include "parallel/ordered_tasks.h"
 #include "sequence/interpolated_snapshot.h"
+#include "sequence/snapshot_source.h"
 #include "sequence/type_path.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"

@@ -12,7 +12,7 @@
 #include "finish/ticks.h"
 #include "load/derived_fields.h"
 #include "scene_file/keys.h"
-#include "sequence/list_sequence.h"
+#include "sequence/snapshot_source.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/camera.h"
 #include "splotchcl/palette_file.h"

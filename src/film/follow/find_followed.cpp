@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "film/follow/followed_particles.h"
-#include "sequence/list_sequence.h"
+#include "sequence/snapshot_source.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_source.h"
 

@@ -21,7 +21,7 @@
 #include "load/passes.h"
 #include "load/suggest_camera.h"
 #include "scene_file/values.h"
-#include "sequence/list_sequence.h"
+#include "sequence/snapshot_source.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 #include "splotchcl/film.h"

@@ -11,7 +11,7 @@
 #include "film/path/film_path.h"
 #include "open_scene/input_files.h"
 #include "pictures/other_scenes.h"
-#include "sequence/film_snapshots.h"
+#include "sequence/snapshot_source.h"
 #include "splotchcl/communicator.h"
 #include "splotchcl/film.h"
 #include "splotchcl/scene.h"
