@@ -10,7 +10,6 @@
 #include "cli/commands.h"
 #include "cli/processes.h"
 #include "cli/scene_options.h"
-#include "cli/version.h"
 #include "common/words.h"
 #include "splotchcl/error.h"
 

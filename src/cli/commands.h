@@ -185,6 +185,12 @@ struct EvolveOptions {
 };
 int run_evolve(const EvolveOptions& options, Console& console);
 
+// What --version says, in lines: the version and the commit, OpenCL's loader, the libraries that
+// the program was built with.
+std::string version_text();
+// The version and the commit alone.
+std::string version_and_commit();
+
 // Carries out what the arguments ask for. The result is the exit code. Throws UsageError
 // for arguments that cannot be understood.
 int run_command_line(int argc, char** argv, Console& console);

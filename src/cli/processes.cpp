@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "cli/version.h"
+#include "cli/commands.h"
 #include "common/child_process.h"
 #include "common/guards.h"
 #include "device/opencl/program_build.h"

@@ -1,5 +1,4 @@
-#include "cli/version.h"
-
+#include "cli/commands.h"
 #include "splotchcl/renderer.h"
 #include "splotchcl_embedded/commit.h"
 
