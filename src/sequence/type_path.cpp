@@ -219,7 +219,7 @@ Column SequenceMember::read(int type, const std::string& field) const {
   const std::lock_guard lock(mutex_);
   const auto found = columns_.find(key);
   if (found != columns_.end()) return found->second;
-  return columns_[key] = snapshot_->read(type, field);
+  return columns_[key] = DerivedSnapshot::read(type, field);
 }
 
 std::set<TypeField> SequenceMember::fields_read() const {

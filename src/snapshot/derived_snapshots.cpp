@@ -125,35 +125,12 @@ std::uint64_t SubsetSnapshot::place_in_file(int type, std::uint64_t i) const {
   return whole_->place_in_file(type, places_of(type)(i));
 }
 
-CachedSnapshot::CachedSnapshot(std::shared_ptr<const Snapshot> snapshot)
-    : snapshot_(std::move(snapshot)) {}
-
-const SnapshotInfo& CachedSnapshot::info() const {
-  return snapshot_->info();
-}
-
 Column CachedSnapshot::read(int type, const std::string& field) const {
   // By the field's own name: a file's label for it finds the same column.
   const std::pair key(type, require_field(info(), type, field).name);
   const auto found = read_.find(key);
   if (found != read_.end()) return found->second;
-  return read_[key] = snapshot_->read(type, field);
-}
-
-std::vector<std::uint64_t> CachedSnapshot::read_ids(int type) const {
-  return snapshot_->read_ids(type);
-}
-
-std::vector<std::uint64_t> CachedSnapshot::read_integers(int type, const std::string& field) const {
-  return snapshot_->read_integers(type, field);
-}
-
-std::uint64_t CachedSnapshot::place_in_file(int type, std::uint64_t i) const {
-  return snapshot_->place_in_file(type, i);
-}
-
-Vec3 CachedSnapshot::position_origin() const {
-  return snapshot_->position_origin();
+  return read_[key] = DerivedSnapshot::read(type, field);
 }
 
 namespace {
@@ -323,30 +300,23 @@ Column multiplied(const Column& column, double factor) {
   return Column::owning(std::move(values));
 }
 
-class NamedUnitsSnapshot : public Snapshot {
+class NamedUnitsSnapshot : public DerivedSnapshot {
  public:
   NamedUnitsSnapshot(std::unique_ptr<Snapshot> snapshot, SnapshotInfo info, SizeFactors factors)
-      : snapshot_(std::move(snapshot)), info_(std::move(info)), factors_(std::move(factors)) {}
+      : DerivedSnapshot(std::move(snapshot)),
+        info_(std::move(info)),
+        factors_(std::move(factors)) {}
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override {
-    const Column values = snapshot_->read(type, field);
+    const Column values = DerivedSnapshot::read(type, field);
     const auto factor = factors_.find(type);
     if (factor == factors_.end()) return values;
     const FieldInfo* const size = find_field(*info_.find_type(type), "smoothing_length");
     return &require_field(info_, type, field) == size ? multiplied(values, factor->second) : values;
   }
-  std::vector<std::uint64_t> read_ids(int type) const override { return snapshot_->read_ids(type); }
-  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override {
-    return snapshot_->read_integers(type, field);
-  }
-  std::uint64_t place_in_file(int type, std::uint64_t i) const override {
-    return snapshot_->place_in_file(type, i);
-  }
-  Vec3 position_origin() const override { return snapshot_->position_origin(); }
 
  private:
-  std::unique_ptr<Snapshot> snapshot_;
   SnapshotInfo info_;
   SizeFactors factors_;
 };

@@ -45,25 +45,41 @@ class SubsetSnapshot : public Snapshot {
   SnapshotInfo info_;
 };
 
-// A snapshot that remembers every column it was once asked for, so that load_frame may be
-// called for each frame of a film and reads only once (what it makes of them is in memory()).
-// Not for use from several threads at once.
-class CachedSnapshot : public Snapshot {
+// The particles of another snapshot, but for what a derived class says of them.
+class DerivedSnapshot : public Snapshot {
  public:
-  explicit CachedSnapshot(std::shared_ptr<const Snapshot> snapshot);
+  const SnapshotInfo& info() const override { return original_->info(); }
+  Column read(int type, const std::string& field) const override {
+    return original_->read(type, field);
+  }
+  std::vector<std::uint64_t> read_ids(int type) const override { return original_->read_ids(type); }
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override {
+    return original_->read_integers(type, field);
+  }
+  std::uint64_t place_in_file(int type, std::uint64_t i) const override {
+    return original_->place_in_file(type, i);
+  }
+  Vec3 position_origin() const override { return original_->position_origin(); }
 
-  const SnapshotInfo& info() const override;
-  Column read(int type, const std::string& field) const override;
-  std::vector<std::uint64_t> read_ids(int type) const override;  // not remembered
-  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
-  std::uint64_t place_in_file(int type, std::uint64_t i) const override;
-  Vec3 position_origin() const override;
+ protected:
+  explicit DerivedSnapshot(std::shared_ptr<const Snapshot> original)
+      : original_(std::move(original)) {}
 
  private:
-  using Columns = std::map<std::pair<int, std::string>, Column>;
+  std::shared_ptr<const Snapshot> original_;
+};
 
-  std::shared_ptr<const Snapshot> snapshot_;
-  mutable Columns read_;
+// A snapshot that remembers every column it was once asked for, so that load_frame may be
+// called for each frame of a film and reads only once (what it makes of them is in memory()).
+// Identifiers and whole numbers are not remembered. Not for use from several threads at once.
+class CachedSnapshot : public DerivedSnapshot {
+ public:
+  explicit CachedSnapshot(std::shared_ptr<const Snapshot> snapshot)
+      : DerivedSnapshot(std::move(snapshot)) {}
+  Column read(int type, const std::string& field) const override;
+
+ private:
+  mutable std::map<std::pair<int, std::string>, Column> read_;
 };
 
 // The snapshot with units that its file does not say, or says wrongly: FIELD=UNIT, by any name of
