@@ -157,11 +157,6 @@ Hdf5Member read_hdf5_member(const std::filesystem::path& path, std::vector<std::
   return member;
 }
 
-// By another name than that of the snapshot's function.
-std::optional<std::vector<std::uint64_t>> read_integers_of(const std::vector<Hdf5Values>& parts) {
-  return read_integers(parts);
-}
-
 Column at_least_zero(const Column& column) {
   std::vector<float> values(column.size());
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -376,7 +371,7 @@ Column GadgetHdf5Snapshot::read(int type, const std::string& name) const {
 
 std::vector<std::uint64_t> GadgetHdf5Snapshot::read_ids(int type) const {
   const FieldInfo& field = require_ids(info_, type);
-  auto ids = read_integers_of(find_parts(type, field.file_name));
+  auto ids = splotchcl::read_integers(find_parts(type, field.file_name));
   if (!ids) refuse_ids(info_, type, field);
   return std::move(*ids);
 }
@@ -384,7 +379,7 @@ std::vector<std::uint64_t> GadgetHdf5Snapshot::read_ids(int type) const {
 std::vector<std::uint64_t> GadgetHdf5Snapshot::read_integers(int type,
                                                              const std::string& name) const {
   const FieldInfo& field = require_field(info_, type, name);
-  auto numbers = read_integers_of(find_parts(type, field.file_name));
+  auto numbers = splotchcl::read_integers(find_parts(type, field.file_name));
   if (!numbers) refuse_integers(info_, type, field);
   return std::move(*numbers);
 }
