@@ -51,7 +51,8 @@ void add_tree(CLI::App& app, Run& run, Console& console);
 void add_fields(CLI::App& app, Run& run, Console& console);
 void add_palettes(CLI::App& app, Run& run, Console& console);
 
-// Describe `splotchcl galaxy` and `splotchcl evolve`.
+// Describe `splotchcl generate`, `galaxy` and `evolve`, which make snapshots.
+void add_generate(CLI::App& app, Run& run, Console& console);
 void add_galaxy(CLI::App& app, Run& run, Console& console);
 void add_evolve(CLI::App& app, Run& run, Console& console);
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cli/command_builder.h"
-#include "cli/pages.h"
 #include "cli/commands.h"
+#include "cli/pages.h"
 #include "cli/processes.h"
 #include "cli/scene_options.h"
 #include "common/words.h"
@@ -56,14 +56,6 @@ const CLI::Validator tree_by_name(
       if (use == tree_names.end()) return "found " + name + ", expected auto, never or only";
       name = std::to_string(static_cast<int>(use->second));
       return std::string();
-    },
-    "");
-
-// Without it -1 is read as the largest number that there is.
-const CLI::Validator not_negative(
-    [](const std::string& number) {
-      return number.rfind('-', 0) == 0 ? "found " + number + ", expected a whole number >= 0"
-                                       : std::string();
     },
     "");
 
@@ -306,42 +298,6 @@ void add_devices(CLI::App& app, Run& run) {
                                   [](const DevicesOptions& o) { return run_devices(o); });
   sub->add_flag("--json", options->json, wrapped("Print JSON"));
   sub->footer("Example:\n  splotchcl devices");
-}
-
-void add_generate(CLI::App& app, Run& run, Console& console) {
-  const auto options = std::make_shared<GenerateOptions>();
-  CLI::App* const sub = add_command<GenerateOptions>(
-      app, run, "generate", "Make a snapshot to try things on", options,
-      [&console](const GenerateOptions& o) { return run_generate(o, console); });
-  sub->add_option("WHAT", options->what,
-                  wrapped("universe: cosmic web and haloes in a box of 50000 kpc/h; cluster: a "
-                          "cluster of galaxies with infalling groups and cold streams; halo: a "
-                          "spiral galaxy with satellites in hot gas"))
-      ->required()
-      ->check(CLI::IsMember({"universe", "cluster", "halo"}));
-  sub->add_option("-o,--output", options->output,
-                  wrapped("The snapshot, Gadget format 2; of a universe of more than 30 million "
-                          "particles in files FILE.0, FILE.1, ..."))
-      ->required()
-      ->type_name("FILE");
-  sub->add_option("--particles", options->settings.particles,
-                  wrapped("Number of gas and star particles"))
-      ->type_name("N")
-      ->check(not_negative)
-      ->capture_default_str();
-  sub->add_option("--stars", options->settings.star_fraction,
-                  wrapped("The fraction of them that are stars"))
-      ->type_name("FRACTION")
-      ->capture_default_str();
-  sub->add_option("--seed", options->settings.seed,
-                  wrapped("The same seed makes the same particles"))
-      ->type_name("N")
-      ->check(not_negative)
-      ->capture_default_str();
-  sub->footer(
-      "Units are Gadget's: kpc/h, 1e10 solar masses/h, km/s.\n"
-      "Example:\n"
-      "  splotchcl generate universe -o universe.gadget --particles 1000000 --seed 7");
 }
 
 // For the build, which installs what it writes. Hidden: it has no group in the help.
