@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "certificate/peak_cells.h"
+#include "certificate/cells.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/frame_check.h"
 #include "splotchcl/image.h"

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "certificate/crowd_cells.h"
+#include "certificate/cells.h"
 #include "certificate/octave_errors.h"
-#include "certificate/peak_cells.h"
 #include "scene/plan/light_structure.h"
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/frame_check.h"

@@ -11,10 +11,8 @@
 #include <vector>
 
 #include "certificate/certificate.h"
-#include "device/drawn_picture.h"
-#include "device/failing_parts.h"
+#include "device/drawings.h"
 #include "device/frame_checks.h"
-#include "device/next_drawing.h"
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
@@ -78,7 +76,7 @@ struct Renderer::State {
     // The shape decides for all stages: a processor that is asked for groups runs the kernels and
     // the sizes of a GPU.
     if (options.shape != CompositeShape::automatic) {
-      choose_shape(device.traits, options.shape == CompositeShape::rows);
+      device.traits.choose_shape(options.shape == CompositeShape::rows);
     }
     device.traits.double_numbers &= options.use_double;
     if (options.memory_bytes > 0) device.limit_memory(options.memory_bytes);
@@ -159,7 +157,7 @@ void Renderer::State::join_ranks(const RendererOptions& options) {
   const DeviceTraits& traits = device.traits;
   require_same(*ranks, "device",
                device.device.name() + ", driver " + device.device.driver_version() + ", " +
-                   shape_name(traits) + (traits.double_numbers ? "" : ", no doubles"),
+                   traits.shape_name() + (traits.double_numbers ? "" : ", no doubles"),
                "choose the same everywhere with --device");
 }
 

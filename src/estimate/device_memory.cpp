@@ -4,12 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "device/frame/cell_layout.h"
 #include "device/frame/chunks.h"
 #include "device/frame/picture_layout.h"
 #include "device/frame/shared.h"
-#include "device/frame/splat_capacity.h"
 #include "device/opencl/buffer_pool.h"
+#include "device/stages/certifier.h"
 #include "scene/ceil_divide.h"
 
 namespace splotchcl {

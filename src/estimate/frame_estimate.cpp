@@ -1,10 +1,12 @@
 #include "estimate/frame_estimate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "device/frame/splat_capacity.h"
+#include "device/frame/picture_layout.h"
 #include "device/frame/variant.h"
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
@@ -133,6 +135,19 @@ void choose_windows(const Frame& frame, const FramePlan& plan, const Variant& va
   estimate.device_bytes = estimate_device_bytes_of_windows(frame, plan, variant, traits, in_window);
 }
 
+std::string megabytes(std::uint64_t bytes) {
+  return fmt::format("{:.3g} MB", static_cast<double>(bytes) / 1e6);
+}
+
+std::string count(double number) {
+  return number < 1e5 ? fmt::format("{:.0f}", number) : fmt::format("{:.3g} million", number / 1e6);
+}
+
+// Two digits, or all before the point.
+std::string rounded(double number) {
+  return number < 10 ? fmt::format("{:.2g}", number) : fmt::format("{:.0f}", number);
+}
+
 }  // namespace
 
 FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const std::string& device,
@@ -155,6 +170,39 @@ FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const st
     estimate.seconds = estimate_seconds(frame, plan, work, estimate.compute_units);
   }
   return estimate;
+}
+
+std::string rounded_duration(double seconds) {
+  if (seconds < 100) return rounded(seconds) + " s";
+  if (seconds < 6000) return rounded(seconds / 60) + " min";
+  return rounded(seconds / 3600) + " h";
+}
+
+std::string explain(const FrameEstimate& estimate, int drawings) {
+  std::string text = fmt::format(
+      "memory: {} of buffers on the device, for the plan's chunks, lists and grids; {} of "
+      "particles\n",
+      megabytes(estimate.device_bytes), megabytes(estimate.particle_bytes));
+  if (estimate.windows > 0) {
+    text +=
+        fmt::format("  drawn in about {} windows of depth, since there is room for {} (--memory)\n",
+                    estimate.windows, megabytes(estimate.memory_limit));
+  }
+  if (!estimate.seconds) {
+    return text + "time: no estimate, since no rates were measured on a GPU\n";
+  }
+  const std::string each = drawings > 1 ? fmt::format(" ({} drawings, {} each)", drawings,
+                                                      rounded_duration(*estimate.seconds))
+                                        : std::string();
+  text += fmt::format("time: about {} to draw{}, an estimate\n",
+                      rounded_duration(drawings * *estimate.seconds), each);
+  text += fmt::format(
+      "  {} splats in {} entries of tiles, at rates that were measured on two cores of an\n"
+      "  AMD EPYC through PoCL 3.1, for the {} compute units of {};\n"
+      "  without reading, compiling kernels and writing\n",
+      count(estimate.splats), count(estimate.tile_entries), estimate.compute_units,
+      estimate.device);
+  return text;
 }
 
 }  // namespace splotchcl

@@ -1,7 +1,6 @@
 #include <malloc.h>
 
 #include "device/opencl/buffer_pool.h"
-#include "device/opencl/large_pages.h"
 #include "device/opencl/staged_copies.h"
 #include "device/stages.h"
 #include "testing.h"

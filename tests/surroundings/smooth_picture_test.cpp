@@ -5,9 +5,9 @@
 
 #include "frames/random_frames.h"
 #include "scene/projection.h"
+#include "surroundings/cloud_around.h"
 #include "surroundings/clouds_in_blocks.h"
 #include "surroundings/columns_around.h"
-#include "surroundings/narrowest_detail.h"
 #include "testing.h"
 
 namespace splotchcl::test {

@@ -49,7 +49,7 @@ shared::PathParameters parameters_of(const PathNumbers& path, const SnapshotColu
 
 Launch launch_of(DeviceContext& device, const char* kernel) {
   const Program program = device.programs.get(
-      program_source("kernels/interpolate/interpolate.cl", lanes_of(device.traits)));
+      program_source("kernels/interpolate/interpolate.cl", device.traits.lanes()));
   return Launch(device, "interpolate", program.create_kernel(kernel));
 }
 

@@ -12,7 +12,6 @@
 #include "splotchcl/error.h"
 
 namespace splotchcl {
-
 namespace {
 
 // Values of particles [first, end) in a column of `count` of them.
@@ -322,6 +321,25 @@ void ParticleStore::end_frame(std::uint64_t number) {
     device_bytes_ -= entry->second.bytes;
     entry = entries_.erase(entry);
   }
+}
+
+void set_strides(const ParticleBuffers& particles, shared::ProjectLaunch& launch) {
+  launch.smoothing_length_stride = particles.smoothing_length_stride;
+  launch.weight_stride = particles.weight_stride;
+  launch.color_stride = particles.color_stride;
+  launch.intensity_stride = particles.intensity_stride;
+  launch.sort_stride = particles.sort_stride;
+  launch.own_color_stride = particles.own_color_stride;
+}
+
+Launch& pass_columns(Launch& launch, const ParticleBuffers& particles) {
+  return launch.arg(particles.position)
+      .arg(particles.smoothing_length)
+      .arg(particles.weight)
+      .arg(particles.color)
+      .arg(particles.intensity)
+      .arg(particles.sort_field)
+      .arg(particles.own_color);
 }
 
 }  // namespace splotchcl

@@ -9,8 +9,9 @@
 #include "between/interpolation.h"
 #include "device/frame/block_boxes.h"
 #include "device/frame/chunks.h"
-#include "device/frame/view_bounds.h"
+#include "device/frame/shared.h"
 #include "device/opencl/device_context.h"
+#include "device/opencl/launch.h"
 #include "splotchcl/particles.h"
 
 namespace splotchcl {
@@ -111,5 +112,11 @@ class ParticleStore {
   std::uint64_t frame_ = 0;
   std::uint64_t uses_ = 0;
 };
+
+// What kernels that read columns of particles take (kernels/project/load.cl): the strides, among
+// the parameters, and the buffers, from positions to sort fields. The particles' own colors are an
+// argument of their own, where a component has some.
+void set_strides(const ParticleBuffers& particles, shared::ProjectLaunch& launch);
+Launch& pass_columns(Launch& launch, const ParticleBuffers& particles);
 
 }  // namespace splotchcl

@@ -1,17 +1,30 @@
 #include "device/stages/certifier.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
 #include <utility>
 
-#include "device/frame/cell_layout.h"
+#include "certificate/cells.h"
+#include "device/frame/stage_context.h"
 #include "device/opencl/launch.h"
-#include "device/stages/clear_memory.h"
 #include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "scene/plan/splat_limits.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
+
+// Where the cells of a tile of `width` by `height` pixels begin, octave by octave.
+void lay_out(int (*shift_of)(int octave), std::uint32_t width, std::uint32_t height,
+             shared::OctaveCells* octaves, std::uint32_t& count) {
+  for (int octave = 0; octave < WIDTH_OCTAVES; ++octave) {
+    const int shift = shift_of(octave);
+    octaves[octave] = {count, 2 * shift};
+    count += (width >> shift) * (height >> shift);
+  }
+}
 
 // Values of tiles, where those of an octave lie.
 struct TileCells {
@@ -105,6 +118,31 @@ double longest_list(const float* listed, std::size_t tiles, std::size_t cells_pe
 }
 
 }  // namespace
+
+void lay_out_cells(const Variant& variant, shared::CertifyParameters& parameters) {
+  const std::uint32_t width = variant.tile_width, height = variant.tile_height;
+  if (width != height && width != 2 * height) {
+    throw DeviceError("tiles of " + std::to_string(width) + "x" + std::to_string(height) +
+                      " pixels: they have to be squares, or twice as wide as high");
+  }
+  parameters.cells_per_tile = 0;
+  for (const auto& [shift_of, octaves] : {std::pair(&peak_cell_shift, parameters.peaks),
+                                          std::pair(&ending_cell_shift, parameters.endings)}) {
+    lay_out(shift_of, width, height, octaves, parameters.cells_per_tile);
+  }
+  parameters.listed = parameters.cells_per_tile++;
+}
+
+std::vector<std::size_t> numbers_of_cells(int columns, int row) {
+  std::vector<std::size_t> numbers(static_cast<std::size_t>(columns));
+  for (std::size_t column = 0; column < numbers.size(); ++column) {
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      numbers[column] |= (column >> bit & 1) << 2 * bit;
+      numbers[column] |= (static_cast<std::size_t>(row) >> bit & 1) << (2 * bit + 1);
+    }
+  }
+  return numbers;
+}
 
 Certifier::Certifier(const StageContext& context) : context_(context) {
   if (!context.plan.has_errors_of_splats) return;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "device/frame/stage_context.h"
 #include "device/opencl/launch.h"
 #include "device/stages/binner.h"
-#include "device/stages/clear_memory.h"
 #include "device/stages/stage_programs.h"
 #include "scene/ceil_divide.h"
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "device/frame/chunks.h"
-#include "device/frame/key_windows.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "certificate/certificate.h"
+#include "device/frame/stage_context.h"
 #include "device/opencl/launch.h"
-#include "device/stages/clear_memory.h"
 #include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/memory_advice.h"
-#include "scene/plan/blur_filter.h"
+#include "scene/plan/grid_filters.h"
 #include "scene/plan/grid_pyramid.h"
 #include "splotchcl/frame_check.h"
 

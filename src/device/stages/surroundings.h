@@ -9,11 +9,22 @@
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
-#include "device/stages/cloud_layers.h"
+#include "device/opencl/buffer_pool.h"
+#include "device/stages/clouds_in_lists.h"
+#include "splotchcl/plan.h"
 #include "surroundings/cloud_around.h"
 #include "surroundings/smooth_picture.h"
 
 namespace splotchcl {
+
+// Of what is worked out for a pixel of a layer of clouds around the camera: in ordered frames light
+// and optical depths, else the sum.
+std::size_t channels_of_layer(const FramePlan& plan);
+
+// The layer as the planes of the picture's grid have it (kernels/composite/behind.cl), without
+// padding: of the frame's crop. Interpolated in single precision where it `may_round` so, but in
+// extended frames as pairs of floats.
+Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& layer, bool may_round);
 
 // Clouds around the camera, which the projection leaves out and counts: worked out by the host, in
 // double precision, since they are few and smooth. The stage `surroundings`.

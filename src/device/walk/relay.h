@@ -8,7 +8,7 @@
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
 #include "device/ranks/light_transfer.h"
-#include "device/ranks/rank_work.h"
+#include "device/ranks/rank_share.h"
 #include "device/stages/projector.h"
 
 namespace splotchcl {

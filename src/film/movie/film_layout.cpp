@@ -12,7 +12,6 @@
 #include "splotchcl/error.h"
 
 namespace splotchcl {
-
 namespace {
 
 // Boxes do not tell squeezed pictures from others: players know them by their shape.

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "scene/constants.h"
-#include "scene/plan/small_matrix.h"
+#include "scene/plan/grid_filters.h"
 
 namespace splotchcl {
 namespace {
