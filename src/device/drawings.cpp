@@ -14,7 +14,6 @@
 #include "device/frame_checks.h"
 #include "parallel/for_blocks.h"
 #include "scene/plan/cloud_sample.h"
-#include "scene/plan/tried_parts.h"
 #include "splotchcl/plan.h"
 #include "splotchcl/renderer.h"
 

@@ -3,7 +3,7 @@
 #include "device/opencl/device_context.h"
 #include "device/pictures.h"
 #include "device/stages.h"
-#include "device/stages/group_binner.h"
+#include "device/stages/binner.h"
 #include "testing.h"
 
 namespace splotchcl::test {

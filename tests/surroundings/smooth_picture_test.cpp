@@ -6,7 +6,6 @@
 #include "frames/random_frames.h"
 #include "scene/projection.h"
 #include "surroundings/cloud_around.h"
-#include "surroundings/clouds_in_blocks.h"
 #include "surroundings/columns_around.h"
 #include "testing.h"
 

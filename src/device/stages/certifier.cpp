@@ -166,31 +166,19 @@ Buffer<float> Certifier::room() const {
       std::uint64_t{context_.layout.tile_count} * parameters_.cells_per_tile, "peak cells");
 }
 
-void Certifier::start() {
-  cells_ = room();
-  clear_memory(context_.device, "certify", cells_.memory(), 0, cells_.size() * sizeof(float));
+void Certifier::begin(Buffer<float>& cells) const {
+  if (!context_.plan.has_errors_of_splats || cells.size() > 0) return;
+  cells = room();
+  clear_memory(context_.device, "certify", cells.memory(), 0, cells.size() * sizeof(float));
 }
 
-Buffer<float> Certifier::take_cells() {
-  return std::exchange(cells_, {});
-}
-
-const Buffer<float>& Certifier::begin_cells() {
-  if (context_.plan.has_errors_of_splats && !has_started()) start();
-  return cells_;
-}
-
-void Certifier::put_cells(Buffer<float> cells) {
-  cells_ = std::move(cells);
-}
-
-void Certifier::collect(const TileLists& lists) {
+void Certifier::collect(const TileLists& lists, Buffer<float>& cells) const {
   if (!context_.plan.has_errors_of_splats || lists.segment_count == 0) return;
-  if (!has_started()) start();
+  begin(cells);
   shared::CertifyParameters parameters = parameters_;
   parameters.segment_count = lists.segment_count;
   if (!context_.variant.rows) {
-    collect_in_groups(lists, parameters);
+    collect_in_groups(lists, parameters, cells);
     return;
   }
   Launch(context_.device, "certify", program_.create_kernel("collect"))
@@ -198,12 +186,13 @@ void Certifier::collect(const TileLists& lists) {
       .arg(context_.grids)
       .arg(lists.segments)
       .arg(lists.entries)
-      .arg(cells_)
+      .arg(cells)
       .run_pieces(lists.segment_count);
 }
 
 void Certifier::collect_in_groups(const TileLists& lists,
-                                  const shared::CertifyParameters& parameters) const {
+                                  const shared::CertifyParameters& parameters,
+                                  const Buffer<float>& cells) const {
   DeviceContext& device = context_.device;
   const auto partial_cells = device.pool.get<float>(
       std::uint64_t{lists.partial_count} * parameters.cells_per_tile, "cells of segments");
@@ -212,30 +201,30 @@ void Certifier::collect_in_groups(const TileLists& lists,
       .arg(context_.grids)
       .arg(lists.segments)
       .arg(lists.entries)
-      .arg(cells_)
+      .arg(cells)
       .arg(partial_cells)
       .run_groups(lists.segment_count, GROUP_ITEMS);
   if (lists.partial_count == 0) return;
   Launch(device, "certify", program_.create_kernel("collect_segments"))
       .value(parameters)
       .arg(lists.segments)
-      .arg(cells_)
+      .arg(cells)
       .arg(partial_cells)
       .run_groups(lists.segment_count, GROUP_ITEMS);
 }
 
-CellsOfTiles Certifier::read() const {
-  CellsOfTiles cells;
-  if (!has_started()) return cells;
-  const MappedValues<const float> values = context_.device.pool.map_to_read(cells_);
-  cells.values.assign(values.data(), values.data() + values.size());
-  cells.parameters = parameters_;
-  cells.tile_count = context_.layout.tile_count;
-  cells.tile_width = static_cast<int>(context_.variant.tile_width);
-  cells.tile_height = static_cast<int>(context_.variant.tile_height);
-  cells.grids = context_.layout.grids;
-  cells.pyramid = context_.plan.pyramid;
-  return cells;
+CellsOfTiles Certifier::read(const Buffer<float>& cells) const {
+  CellsOfTiles read;
+  if (cells.size() == 0) return read;
+  const MappedValues<const float> values = context_.device.pool.map_to_read(cells);
+  read.values.assign(values.data(), values.data() + values.size());
+  read.parameters = parameters_;
+  read.tile_count = context_.layout.tile_count;
+  read.tile_width = static_cast<int>(context_.variant.tile_width);
+  read.tile_height = static_cast<int>(context_.variant.tile_height);
+  read.grids = context_.layout.grids;
+  read.pyramid = context_.plan.pyramid;
+  return read;
 }
 
 // Of all octaves and levels that have some. All cores read what lies far apart: octaves first, to

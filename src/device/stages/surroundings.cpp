@@ -22,7 +22,6 @@
 #include "scene/projection.h"
 #include "splotchcl/error.h"
 #include "surroundings/cloud_around.h"
-#include "surroundings/clouds_in_blocks.h"
 #include "surroundings/columns_around.h"
 
 namespace splotchcl {

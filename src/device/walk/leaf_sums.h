@@ -8,24 +8,9 @@
 #include "device/frame/chunks.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
-#include "device/ranks/light_transfer.h"
+#include "device/ranks/transfers.h"
 
 namespace splotchcl {
-
-// The light of one part of a sum's splats added to that of another.
-class LightAdder {
- public:
-  explicit LightAdder(const StageContext& context) : context_(context) {}
-
-  SplatLight add(SplatLight to, SplatLight from) const;
-
- private:
-  void add_planes(const Planes& to, const Planes& from, std::size_t grid) const;
-  void add(const char* kernel, const shared::AddLightParameters& parameters, std::size_t planes,
-           const Buffer<float>& to, const Buffer<float>& from) const;
-
-  const StageContext& context_;
-};
 
 // The light of the leaves of a sum (chunks.h), joined by a fixed binary tree: each node is its left
 // branch plus its right one, whichever ranks have them, so that all numbers of ranks give the same
@@ -55,7 +40,7 @@ class LeafSums {
   SplatLight draw_node(const Node& node, const DrawLeaf& draw_leaf) const;
   SplatLight join_node(const Node& node);
 
-  const LightAdder adder_;
+  const StageContext& context_;
   const std::size_t leaves_;
   const FrameRanks& ranks_;
   const LightTransfer& transfer_;

@@ -53,18 +53,6 @@ std::vector<std::uint64_t> sort_keys_up_to(const StageContext& context, const Ke
   return keys;
 }
 
-Relay::Relay(const StageContext& context, const Projector& projector, const LightTransfer& transfer,
-             FrameRanks& ranks)
-    : context_(context), projector_(projector), transfer_(transfer), ranks_(ranks) {}
-
-int Relay::rank_before() const {
-  return is_first_rank() ? ranks_.size() - 1 : ranks_.rank() - 1;
-}
-
-bool Relay::has_other_before(std::size_t round) const {
-  return ranks_.size() > 1 && (round > 0 || !is_first_rank());
-}
-
 void Relay::pass_splats(const SortedSplats& sorted, std::uint32_t count) {
   splats_.clear();
   extended_.clear();
@@ -86,10 +74,10 @@ void Relay::send_splats(int to) const {
   }
 }
 
-void Relay::pass_round(const SplatLight& light, const SlabLight& slab) {
+void Relay::pass_round(const SplatLight& light) {
   if (ranks_.size() == 1 || !is_last_rank()) return;
   send_splats(0);
-  send(light, slab, 0);
+  transfer_.send(light, 0);
 }
 
 void Relay::take_splats(std::size_t round, const SplatMemory& splats, std::uint32_t count) {
@@ -107,29 +95,10 @@ void Relay::take_splats(std::size_t round, const SplatMemory& splats, std::uint3
   take(extended_, splats.extended, variant.extended_splat_bytes());
 }
 
-void Relay::send(const SplatLight& light, const SlabLight& slab, int to) const {
-  transfer_.send(light, to);
-  if (context_.plan.slabs > 0) transfer_.send(slab, to);
-}
-
-SplatLight Relay::receive(const SlabLight& slab, int from) const {
-  SplatLight light = transfer_.receive(from);
-  if (context_.plan.slabs > 0) transfer_.receive(slab, from);
-  return light;
-}
-
-void Relay::send_on(const SplatLight& light, const SlabLight& slab) const {
-  if (!is_last_rank()) send(light, slab, ranks_.rank() + 1);
-}
-
-SplatLight Relay::receive_light(const SlabLight& slab) const {
-  return receive(slab, rank_before());
-}
-
-SplatLight Relay::bring_home(SplatLight light, const SlabLight& slab) const {
+SplatLight Relay::bring_home(SplatLight light) const {
   if (ranks_.size() == 1) return light;
-  if (is_last_rank()) send(light, slab, 0);
-  return is_first_rank() ? receive(slab, ranks_.size() - 1) : std::move(light);
+  if (is_last_rank()) transfer_.send(light, 0);
+  return is_first_rank() ? receive_light(std::move(light.slab)) : std::move(light);
 }
 
 std::vector<TileBand> relay_bands(const PictureLayout& layout, int ranks) {

@@ -9,7 +9,7 @@
 #include "device/frame/picture_layout.h"
 #include "device/frame/stage_context.h"
 #include "device/ranks/rank_share.h"
-#include "device/ranks/splat_packets.h"
+#include "device/ranks/transfers.h"
 #include "device/stages/project_parameters.h"
 #include "ranks/exchange.h"
 #include "splotchcl/error.h"
@@ -72,10 +72,7 @@ bool KeyCounter::has_keys_in(std::size_t chunk, const KeyWindow& window) const {
 void KeyCounter::note(std::size_t chunk, const ChunkKeys& keys) {
   bins_[chunk] = keys.bins;
   left_out_ += keys.left_out;
-  counts_.visible += keys.particles.visible;
-  counts_.bad += keys.particles.bad;
-  counts_.too_sharp += keys.particles.too_sharp;
-  counts_.around += keys.particles.around;
+  counts_ += keys.particles;
 }
 
 // So many chunks at a time as 32 bits allow.
@@ -171,7 +168,6 @@ bool SplatSlices::has_room_for_all() const {
 void SplatSlices::find_whole() {
   whole_ = project_whole(context_, projector_, particles_);
   counts_ = whole_.particles;
-  blocks_around_ = whole_.particles.chunks_around;
   own_around_ = counts_.around;
   left_out_ = whole_.left_out;
   slices_ = {{{0, 0}, {end_of_keys, 0}, 0, counts_.visible}};
@@ -181,7 +177,8 @@ void SplatSlices::count_keys() {
   const CountedKeys counted = count_everywhere({}, shift_of_all_keys);
   counts_ = counter_.particles();
   own_around_ = counts_.around;
-  if (own_around_ > 0) blocks_around_ = all_blocks(counter_.chunks(), context_.device.traits);
+  if (own_around_ > 0)
+    counts_.chunks_around = all_blocks(counter_.chunks(), context_.device.traits);
   left_out_ = counter_.left_out();
   add_up(ranks_.all,
          {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around, &left_out_});

@@ -68,11 +68,10 @@ class SplatSlices {
   // Collective, first of all; waits for the device. Where particles are too sharp for the plan's
   // precision there is nothing to take.
   void find();
-  const ParticleCounts& particles() const { return counts_; }  // of all ranks
-  std::uint64_t left_out() const { return left_out_; }         // blocks out of view, of all ranks
-  // Of this rank's own particles, which may be clouds around the camera, and how many are.
-  const std::vector<ChunkBlocks>& blocks_around() const { return blocks_around_; }
-  std::uint64_t own_around() const { return own_around_; }
+  // Of all ranks; `chunks_around` of this one's.
+  const ParticleCounts& particles() const { return counts_; }
+  std::uint64_t left_out() const { return left_out_; }      // blocks out of view, of all ranks
+  std::uint64_t own_around() const { return own_around_; }  // clouds among this rank's particles
 
   // Of one slice, projected in one piece.
   bool is_whole() const { return capacity_ == 0; }
@@ -108,7 +107,6 @@ class SplatSlices {
   std::vector<std::uint64_t> chunks_of_ranks_;
   std::uint64_t first_chunk_ = 0;  // number of this rank's first among all
   ParticleCounts counts_;
-  std::vector<ChunkBlocks> blocks_around_;
   std::uint64_t left_out_ = 0, own_around_ = 0;
   std::uint64_t capacity_ = 0;  // of the rank that has least
   std::vector<KeySlice> slices_;
