@@ -105,26 +105,6 @@ TEST(SmoothPicture, OfACropHasTheBitsOfTheWholeOne) {
   }
 }
 
-TEST(SmoothPicture, InSinglePrecisionRoundsOffNoMoreThanItSays) {
-  SmoothPictureSettings settings = settings_of(200, 120, 1e-3);
-  settings.narrowest = 40;
-  const SmoothPicture picture(settings, one_by_one([](int x, int y, int, double* value) {
-                                *value = 1000 * gaussian(x, y, 40) + 1;
-                              }));
-  std::vector<double> exact;
-  std::vector<float> rounded;
-  double largest_error = 0;
-  for (int y = 0; y < 120; ++y) {
-    picture.row(y, exact);
-    picture.row(y, rounded);
-    for (std::size_t x = 0; x < 200; ++x)
-      largest_error = std::max(largest_error, std::abs(static_cast<double>(rounded[x]) - exact[x]));
-  }
-  EXPECT_GE(picture.largest(), 1000);
-  EXPECT_LE(largest_error, SmoothPicture::single_rounding * picture.largest());
-  EXPECT_GT(largest_error, 0);
-}
-
 // Clouds around the camera, found where they show.
 
 std::vector<CloudAround> clouds_of(const Frame& frame, double farthest2) {

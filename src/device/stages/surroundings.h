@@ -17,15 +17,6 @@
 
 namespace splotchcl {
 
-// Of what is worked out for a pixel of a layer of clouds around the camera: in ordered frames light
-// and optical depths, else the sum.
-std::size_t channels_of_layer(const FramePlan& plan);
-
-// The layer as the planes of the picture's grid have it (kernels/composite/behind.cl), without
-// padding: of the frame's crop. Interpolated in single precision where it `may_round` so, but in
-// extended frames as pairs of floats.
-Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& layer, bool may_round);
-
 // Clouds around the camera, which the projection leaves out and counts: worked out by the host, in
 // double precision, since they are few and smooth. The stage `surroundings`.
 class Surroundings {
@@ -67,7 +58,7 @@ class Surroundings {
                           std::uint64_t most) const;
   void append(std::uint32_t c, const std::vector<Found>& found,
               std::vector<CloudAround>& clouds) const;
-  // Pixels may err by `allowed`, interpolated; and once more by so much, rounded.
+  // Pixels may err by `allowed`, interpolated.
   SmoothPicture picture_of(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                            double allowed, double brightest) const;
   // `parts` of the picture share what they may err by.
