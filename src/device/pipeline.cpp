@@ -56,18 +56,6 @@ ReadSplats Pipeline::read_collected() const {
   return read;
 }
 
-std::vector<ParticleChunk> Pipeline::particle_chunks() const {
-  return splotchcl::particle_chunks(context_.frame, context_.device.traits);
-}
-
-SplatBlocks Pipeline::project(const ParticleChunk& chunk) {
-  return projector_.project(chunk, particles_in_view(context_, particles_, chunk));
-}
-
-KeyedSplats Pipeline::project_all() {
-  return project_whole(context_, projector_, particles_);
-}
-
 // Order does not matter: particles pass through in chunks, and the working memory is a chunk's and
 // that of a few sums, however many there are.
 SplatLight Pipeline::draw_sums() {
@@ -87,7 +75,8 @@ SplatLight Pipeline::draw_sums() {
   std::vector<CloudAround> around;
   if (counts_.around > 0) around = find_around(counts_.chunks_around, own_around);
   SplatLight light = sums.join();
-  if (is_first()) surroundings_.draw(around, light.planes);
+  if (is_first() && !around.empty())
+    surroundings_.draw(around, {0, around.size(), 0}, light.planes);
   return light;
 }
 

@@ -15,6 +15,7 @@
 #include "device/stages/certifier.h"
 #include "device/stages/clouds_in_lists.h"
 #include "device/stages/compositor.h"
+#include "device/stages/project_parameters.h"
 #include "device/stages/projector.h"
 #include "device/stages/resolver.h"
 #include "device/stages/sorter.h"
@@ -71,9 +72,13 @@ class Pipeline {
   const DrawCounts& counts() const { return counts_; }  // of what has been drawn, by all ranks
 
   const StageContext& context() const { return context_; }
-  std::vector<ParticleChunk> particle_chunks() const;
-  SplatBlocks project(const ParticleChunk& chunk);
-  KeyedSplats project_all();
+  std::vector<ParticleChunk> particle_chunks() const {
+    return splotchcl::particle_chunks(context_.frame, context_.device.traits);
+  }
+  SplatBlocks project(const ParticleChunk& chunk) {
+    return projector_.project(chunk, particles_in_view(context_, particles_, chunk));
+  }
+  KeyedSplats project_all() { return project_whole(context_, projector_, particles_); }
   const Projector& projector() const { return projector_; }
   const Sorter& sorter() const { return sorter_; }
   const Binner& binner() const { return binner_; }

@@ -37,7 +37,7 @@ class Sort : public StageTest, public testing::WithParamInterface<bool> {
     Keys order(keys.size());
     std::iota(order.begin(), order.end(), 0u);
     const Buffer<std::uint32_t> sorted = Sorter(device()).sort(
-        device().pool.upload(keys, "keys"), device().pool.upload(order, "order"), count);
+        device().pool.upload(keys, "keys"), {}, device().pool.upload(order, "order"), count);
     return device().pool.download(sorted, count);
   }
 };

@@ -236,10 +236,6 @@ std::vector<std::uint64_t> CloudLayers::places_among(const std::vector<std::uint
   return places;
 }
 
-void CloudLayers::append_places(const std::vector<std::uint64_t>& splats_before) {
-  splats_before_.insert(splats_before_.end(), splats_before.begin(), splats_before.end());
-}
-
 void CloudLayers::skip_before(std::uint64_t first) {
   while (taken_ < splats_before_.size() && splats_before_[taken_] < first)
     ++taken_;

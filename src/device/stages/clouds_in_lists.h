@@ -58,7 +58,9 @@ class CloudLayers {
                                           std::uint64_t first, std::size_t begin,
                                           std::size_t end) const;
   // Those of the next clouds.
-  void append_places(const std::vector<std::uint64_t>& splats_before);
+  void append_places(const std::vector<std::uint64_t>& splats_before) {
+    splats_before_.insert(splats_before_.end(), splats_before.begin(), splats_before.end());
+  }
   // Layers in front of splat number `first` are others'.
   void skip_before(std::uint64_t first);
 

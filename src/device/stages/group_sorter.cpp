@@ -153,13 +153,6 @@ shared::KeyRange GroupSorter::find_range(const Buffer<std::uint32_t>& keys,
   return device_.pool.download(range, 1).front();
 }
 
-Buffer<std::uint32_t> GroupSorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
-                                        std::uint32_t count) const {
-  if (count < 2) return values;
-  const DigitPlan plan = digits_of_range(find_range(keys, count));
-  return sort("sort", {std::move(keys), std::move(values)}, count, plan).values;
-}
-
 // Keys of 48 bits: their upper bits that are 0 above the smallest make room for ends.
 std::uint32_t GroupSorter::join_ends(const Buffer<std::uint32_t>& keys,
                                      const Buffer<std::uint16_t>& ends,
@@ -184,6 +177,10 @@ Buffer<std::uint32_t> GroupSorter::sort(Buffer<std::uint32_t> keys,
                                         const Buffer<std::uint16_t>& ends,
                                         Buffer<std::uint32_t> values, std::uint32_t count) const {
   if (count < 2) return values;
+  if (ends.size() == 0) {
+    const DigitPlan of_keys = digits_of_range(find_range(keys, count));
+    return sort("sort", {std::move(keys), std::move(values)}, count, of_keys).values;
+  }
   std::uint32_t bits = 0;
   const std::uint32_t bits_of_ends = join_ends(keys, ends, values, count, bits);
   const DigitPlan plan = digits_of_bits(bits);

@@ -64,8 +64,6 @@ class GroupSorter {
   explicit GroupSorter(DeviceContext& device);
 
   // As in Sorter.
-  Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
-                             std::uint32_t count) const;
   Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
                              Buffer<std::uint32_t> values, std::uint32_t count) const;
   // Stable, by the keys' digits; keys come back less the smallest. `stage` as in Launch.

@@ -356,11 +356,6 @@ std::vector<float> Resolver::errors_of_slabs(const SlabLight& slab) const {
   return blocks;
 }
 
-// Planes of others hold depths.
-bool Resolver::has_opacities() const {
-  return context_.plan.needs_sort() && !context_.plan.is_extended();
-}
-
 Buffer<float> Resolver::find_deepest(const Planes& planes) const {
   static_assert(BlockErrors::block_pixels == ROWS_OF_BLOCK);
   const std::size_t eights = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);

@@ -144,18 +144,9 @@ Buffer<std::uint32_t> Sorter::sort_with_ends(Pairs pairs, const Buffer<std::uint
 Buffer<std::uint32_t> Sorter::order_of(Pairs pairs, const Buffer<std::uint16_t>& ends,
                                        std::uint32_t count) const {
   if (count < 2) return std::move(pairs.values);
-  const bool has_ends = ends.size() > 0;
-  if (groups_) {
-    return has_ends ? groups_->sort(std::move(pairs.keys), ends, std::move(pairs.values), count)
-                    : groups_->sort(std::move(pairs.keys), std::move(pairs.values), count);
-  }
-  return has_ends ? sort_with_ends(std::move(pairs), ends, count)
-                  : sort_pairs(std::move(pairs), count).values;
-}
-
-Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
-                                   std::uint32_t count) const {
-  return order_of({std::move(keys), std::move(values), {}}, {}, count);
+  if (groups_) return groups_->sort(std::move(pairs.keys), ends, std::move(pairs.values), count);
+  return ends.size() > 0 ? sort_with_ends(std::move(pairs), ends, count)
+                         : sort_pairs(std::move(pairs), count).values;
 }
 
 Buffer<std::uint32_t> Sorter::sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,

@@ -16,11 +16,9 @@ class Sorter {
 
   // The splats in the order of ascending keys.
   SortedSplats sort(KeyedSplats keyed) const;
-  // The first `count` values in the order of their ascending keys.
-  Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, Buffer<std::uint32_t> values,
-                             std::uint32_t count) const;
-  // The values in the order of their keys of 48 bits: the upper 32 of values[i] are keys[i], the
-  // others ends[values[i]]. Groups take the numbers 0, 1, 2, ... only.
+  // The first `count` values in the order of their keys: of 32 bits where there are no ends; else
+  // of 48, the upper 32 of values[i] being keys[i], the others ends[values[i]]. Of these groups
+  // take the numbers 0, 1, 2, ... only.
   Buffer<std::uint32_t> sort(Buffer<std::uint32_t> keys, const Buffer<std::uint16_t>& ends,
                              Buffer<std::uint32_t> values, std::uint32_t count) const;
 

@@ -236,10 +236,6 @@ void Surroundings::end_where_nothing_shows(std::vector<CloudAround>& clouds, dou
   }
 }
 
-void Surroundings::end_nearer(std::vector<CloudAround>& clouds) const {
-  end_where_nothing_shows(clouds, 0.5);
-}
-
 std::vector<CloudAround> Surroundings::list(
     const std::vector<ChunkBlocks>& chunks,
     const std::function<ParticleBuffers(const ParticleChunk&)>& get, std::uint64_t counted) const {
@@ -318,34 +314,25 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   return SmoothPicture(settings, pixels_of_row);
 }
 
-void Surroundings::draw(const std::vector<CloudAround>& clouds, const Planes& planes) const {
-  if (!clouds.empty()) put_behind(clouds, {0, clouds.size(), 0}, 1, planes);
-}
-
-// There are no more layers than clouds.
+// The layer in stretches of clouds that are worked out alike, one behind the other.
 void Surroundings::draw(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                         const Planes& planes) const {
-  put_behind(clouds, layer, clouds.size(), planes);
-}
-
-// The layer in stretches of clouds that are worked out alike, one behind the other.
-void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
-                              std::size_t parts, const Planes& planes) const {
   // Certified frames are worked out in every pixel.
   const std::vector<std::size_t> ends =
       context_.plan.certify ? std::vector{layer.end}
                             : ends_of_stretches(clouds, layer.first, layer.end, context_.frame);
+  // There are no more layers than clouds, and of sums one.
+  const std::size_t layers = context_.plan.needs_sort() ? clouds.size() : 1;
   CloudLayer stretch = layer;
   for (const std::size_t end : ends) {
     stretch.end = end;
-    put_stretch_behind(clouds, stretch, std::max(parts, ends.size()), planes);
+    put_behind(clouds, stretch, std::max(layers, ends.size()), planes);
     stretch.first = end;
   }
 }
 
-void Surroundings::put_stretch_behind(const std::vector<CloudAround>& clouds,
-                                      const CloudLayer& layer, std::size_t parts,
-                                      const Planes& planes) const {
+void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
+                              std::size_t parts, const Planes& planes) const {
   const Rectangle& crop = context_.frame.crop;
   shared::BehindParameters parameters{};
   parameters.width = crop.width;

@@ -35,14 +35,11 @@ class Surroundings {
   std::vector<CloudAround> in_order(std::vector<CloudAround> clouds) const;
 
   // Ends them nearer: of what they may err by, half is lost there. Not for what is interpolated.
-  void end_nearer(std::vector<CloudAround>& clouds) const;
+  void end_nearer(std::vector<CloudAround>& clouds) const { end_where_nothing_shows(clouds, 0.5); }
 
-  // All of these clouds, added to what is in the planes of a sum.
-  void draw(const std::vector<CloudAround>& clouds, const Planes& planes) const;
-  // The layer's clouds, behind what is in the planes of an ordered frame.
+  // The layer's clouds: behind what is in the planes of an ordered frame, or added to a sum.
   void draw(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
             const Planes& planes) const;
-
   // The part of the promise that all of this may spend.
   static constexpr double share_of_promise = 0.02;
 
@@ -64,8 +61,6 @@ class Surroundings {
   // `parts` of the picture share what they may err by.
   void put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                   std::size_t parts, const Planes& planes) const;
-  void put_stretch_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
-                          std::size_t parts, const Planes& planes) const;
 
   const StageContext& context_;
 };

@@ -63,14 +63,6 @@ LeafSums::LeafSums(const StageContext& context, std::size_t leaves, const FrameR
       transfer_(transfer),
       own_(leaves_of_rank(leaves, ranks.rank(), ranks.size())) {}
 
-int LeafSums::owner_of(const Node& node) const {
-  return owner_of_leaf(node.first, leaves_, ranks_.size());
-}
-
-void LeafSums::draw(const DrawLeaf& draw_leaf) {
-  if (leaves_ > 0) draw_parts({0, leaves_}, draw_leaf);
-}
-
 void LeafSums::draw_parts(const Node& node, const DrawLeaf& draw_leaf) {
   if (node.end <= own_.first || node.first >= own_.end) return;
   if (is_own(node)) {
@@ -88,10 +80,6 @@ SplatLight LeafSums::draw_node(const Node& node, const DrawLeaf& draw_leaf) cons
   SplatLight left = draw_node({node.first, middle}, draw_leaf);
   SplatLight right = draw_node({middle, node.end}, draw_leaf);
   return add(context_, std::move(left), std::move(right));
-}
-
-SplatLight LeafSums::join() {
-  return leaves_ > 0 ? join_node({0, leaves_}) : SplatLight();
 }
 
 // A right branch is sent when it is whole, to the rank that has its left one and waits for it.

@@ -22,30 +22,12 @@ bool are_in(const shared::KeyBins& bins, const KeyWindow& window) {
          bins.least <= (window.end - 1) >> shift_of_all_keys;
 }
 
-bool is_everything(const KeyWindow& window) {
-  return window.first == 0 && window.end == end_of_keys;
-}
-
-// What the device counts, in 32 bits.
-class Bins {
- public:
-  explicit Bins(DeviceContext& device)
-      : device_(device), bins_(device.pool.get<std::uint32_t>(KEY_BINS, "counts of keys")) {
-    clear();
-  }
-
-  const Buffer<std::uint32_t>& buffer() const { return bins_; }
-  void clear() {
-    clear_memory(device_, "project", bins_.memory(), 0, KEY_BINS * sizeof(std::uint32_t));
-  }
-  std::vector<std::uint32_t> values() const { return device_.pool.download(bins_, KEY_BINS); }
-
- private:
-  DeviceContext& device_;
-  const Buffer<std::uint32_t> bins_;
-};
-
 }  // namespace
+
+std::uint64_t splat_capacity(const StageContext& context) {
+  return splat_capacity(context.plan, context.variant, context.layout, context.device.traits,
+                        context.device.memory.total);
+}
 
 KeyCounter::KeyCounter(const StageContext& context, const Projector& projector,
                        ParticleStore& particles, std::vector<ParticleChunk> chunks)
@@ -54,10 +36,6 @@ KeyCounter::KeyCounter(const StageContext& context, const Projector& projector,
       particles_(particles),
       chunks_(std::move(chunks)),
       bins_(chunks_.size()) {}
-
-ParticleBuffers KeyCounter::particles_of(std::size_t chunk) const {
-  return particles_in_view(context_, particles_, chunks_[chunk]);
-}
 
 std::uint64_t KeyCounter::most_splats_of(std::size_t chunk) const {
   return std::uint64_t{chunks_[chunk].count()} *
@@ -69,20 +47,18 @@ bool KeyCounter::has_keys_in(std::size_t chunk, const KeyWindow& window) const {
                      [&](const shared::KeyBins& block) { return are_in(block, window); });
 }
 
-void KeyCounter::note(std::size_t chunk, const ChunkKeys& keys) {
-  bins_[chunk] = keys.bins;
-  left_out_ += keys.left_out;
-  counts_ += keys.particles;
+Buffer<std::uint32_t> KeyCounter::empty_bins() const {
+  return context_.device.pool.upload(std::vector<std::uint32_t>(KEY_BINS), "counts of keys");
 }
 
 // So many chunks at a time as 32 bits allow.
 CountedKeys KeyCounter::count(const KeyWindow& window, int shift) {
-  const bool is_first = is_everything(window);
+  const bool is_first = window.first == 0 && window.end == end_of_keys;
   CountedKeys counted{window, shift, std::vector<std::uint64_t>(KEY_BINS)};
-  Bins bins(context_.device);
+  Buffer<std::uint32_t> bins = empty_bins();
   std::uint64_t counted_splats = 0;
   const auto take = [&] {
-    const std::vector<std::uint32_t> found = bins.values();
+    const std::vector<std::uint32_t> found = context_.device.pool.download(bins, KEY_BINS);
     for (std::size_t bin = 0; bin < found.size(); ++bin)
       counted.bins[bin] += found[bin];
   };
@@ -90,13 +66,15 @@ CountedKeys KeyCounter::count(const KeyWindow& window, int shift) {
     if (!is_first && !has_keys_in(c, window)) continue;
     if (counted_splats + most_splats_of(c) > std::numeric_limits<std::uint32_t>::max()) {
       take();
-      bins.clear();
+      bins = empty_bins();
       counted_splats = 0;
     }
     counted_splats += most_splats_of(c);
-    const ChunkKeys keys =
-        projector_.count_keys(chunks_[c], particles_of(c), window, shift, bins.buffer());
-    if (is_first) note(c, keys);
+    const ChunkKeys keys = projector_.count_keys(chunks_[c], particles_of(c), window, shift, bins);
+    if (!is_first) continue;
+    bins_[c] = keys.bins;
+    left_out_ += keys.left_out;
+    counts_ += keys.particles;
   }
   take();
   return counted;
@@ -104,10 +82,9 @@ CountedKeys KeyCounter::count(const KeyWindow& window, int shift) {
 
 std::uint64_t KeyCounter::count_in_chunk(std::size_t chunk, const KeyWindow& window) {
   if (!has_keys_in(chunk, window)) return 0;
-  Bins bins(context_.device);
-  projector_.count_keys(chunks_[chunk], particles_of(chunk), window, shift_of_all_keys,
-                        bins.buffer());
-  const std::vector<std::uint32_t> found = bins.values();
+  const Buffer<std::uint32_t> bins = empty_bins();
+  projector_.count_keys(chunks_[chunk], particles_of(chunk), window, shift_of_all_keys, bins);
+  const std::vector<std::uint32_t> found = context_.device.pool.download(bins, KEY_BINS);
   return std::accumulate(found.begin(), found.end(), std::uint64_t{0});
 }
 
@@ -117,11 +94,6 @@ std::vector<std::uint32_t> KeyCounter::blocks_without(std::size_t chunk,
   for (const shared::KeyBins& block : bins_[chunk])
     without.push_back(are_in(block, window) ? 0 : 1);
   return without;
-}
-
-std::uint64_t splat_capacity(const StageContext& context) {
-  return splat_capacity(context.plan, context.variant, context.layout, context.device.traits,
-                        context.device.memory.total);
 }
 
 KeyedSplats project_whole(const StageContext& context, const Projector& projector,

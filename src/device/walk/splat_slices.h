@@ -8,6 +8,7 @@
 #include "device/frame/particle_store.h"
 #include "device/frame/stage_context.h"
 #include "device/ranks/rank_share.h"
+#include "device/stages/project_parameters.h"
 #include "device/stages/projector.h"
 #include "device/walk/key_slices.h"
 
@@ -29,14 +30,16 @@ class KeyCounter {
   std::uint32_t left_out() const { return left_out_; }  // blocks out of view
 
   const std::vector<ParticleChunk>& chunks() const { return chunks_; }
-  ParticleBuffers particles_of(std::size_t chunk) const;
+  ParticleBuffers particles_of(std::size_t chunk) const {
+    return particles_in_view(context_, particles_, chunks_[chunk]);
+  }
   std::uint64_t most_splats_of(std::size_t chunk) const;
   // Of each block of the chunk 1 where it has no keys in the window, else 0.
   std::vector<std::uint32_t> blocks_without(std::size_t chunk, const KeyWindow& window) const;
   bool has_keys_in(std::size_t chunk, const KeyWindow& window) const;
 
  private:
-  void note(std::size_t chunk, const ChunkKeys& keys);
+  Buffer<std::uint32_t> empty_bins() const;
 
   const StageContext& context_;
   const Projector& projector_;
