@@ -29,11 +29,7 @@ bool reaches_picture(const SampledCloud& cloud, const Frame& frame) {
 class ComponentSample {
  public:
   ComponentSample(const DrawnComponent& component, const Frame& frame, std::size_t stride)
-      : component_(component),
-        frame_(frame),
-        stride_(stride),
-        colors_(component),
-        emitted_part_(peak_emission(component) / std::max(peak_color(component), 1e-300)) {
+      : component_(component), frame_(frame), stride_(stride), colors_(component) {
     for (const Column* column : component.particles.columns()) {
       const bool lies_in_memory = column->is_array() && !column->source();
       if (lies_in_memory && component.particles.count > 0)
@@ -67,7 +63,6 @@ class ComponentSample {
     if (!reaches_picture(cloud, frame_)) return std::nullopt;
     const double amplitude = colors_(i) / component_.reference_column * found->column;
     cloud.light = amplitude * drawn.column * std::min(1.0, pi * cloud.sigma * cloud.sigma);
-    cloud.emitted_part = emitted_part(amplitude);
     cloud.weight = static_cast<double>(stride_);
     return cloud;
   }
@@ -80,11 +75,6 @@ class ComponentSample {
   std::size_t particle(std::size_t sampled) const {
     return sampled_index(sampled * stride_, stride_, component_.particles.count);
   }
-  // With gray absorption the dim emit less than they absorb (scene.h, Absorption).
-  double emitted_part(double amplitude) const {
-    if (component_.absorption.kind != Absorption::Kind::gray) return emitted_part_;
-    return amplitude > 0 ? amplitude / (amplitude + component_.absorption.factor) : 0;
-  }
   static void fetch(const float* value) {
 #ifdef __GNUC__
     __builtin_prefetch(value);
@@ -95,7 +85,6 @@ class ComponentSample {
   const Frame& frame_;
   std::size_t stride_;
   PeakColors colors_;
-  double emitted_part_;
   std::vector<Array> arrays_;  // the component's columns that lie in memory
 };
 

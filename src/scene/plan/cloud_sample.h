@@ -24,11 +24,10 @@ std::optional<PictureCloud> cloud_in_picture(const DrawnComponent& component, co
 
 // A particle that may be seen in the picture.
 struct SampledCloud {
-  double x = 0, y = 0;      // pixels of the whole picture
-  double sigma = 0;         // pixels, with kernel.min_radius
-  double light = 0;         // or depth, whichever is more, in a pixel: of narrow ones their flux
-  double emitted_part = 1;  // of it, what is emitted
-  double weight = 1;        // particles that it stands for
+  double x = 0, y = 0;  // pixels of the whole picture
+  double sigma = 0;     // pixels, with kernel.min_radius
+  double light = 0;     // or depth, whichever is more, in a pixel: of narrow ones their flux
+  double weight = 1;    // particles that it stands for
 };
 
 // Calls work(first, last) for all blocks of `count` things, in any order.
