@@ -67,9 +67,7 @@ Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& lay
   const auto height = static_cast<std::size_t>(context.frame.crop.height);
   const std::size_t channels = channels_of_layer(context.plan);
   const std::size_t planes = context.plan.is_extended() ? 2 : 1, pixels = width * height;
-  BufferPool& pool = context.device.pool;
-  Buffer<float> buffer = pool.get<float>(planes * channels * pixels, "clouds around");
-  const MappedValues<float> mapped = pool.map_to_write(buffer);
+  std::vector<float> floats(planes * channels * pixels);
   constexpr std::size_t rows_at_once = 8;
   for_blocks(height, rows_at_once, [&](std::size_t first, std::size_t end) {
     std::vector<double> row;
@@ -77,7 +75,7 @@ Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& lay
       layer.row(static_cast<int>(y), row);
       for (std::size_t c = 0; c < channels; ++c) {
         const double* const values = row.data() + c * width;
-        float* const to = mapped.data() + planes * c * pixels + y * width;
+        float* const to = floats.data() + planes * c * pixels + y * width;
         for (std::size_t x = 0; planes == 2 && x < width; ++x) {
           const shared::FloatPair pair = pair_of(values[x]);
           to[x] = pair.high;
@@ -91,7 +89,7 @@ Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& lay
       }
     }
   });
-  return buffer;
+  return context.device.pool.upload(floats, "clouds around");
 }
 
 // Less of a column of 1 shows nowhere, however many there are.
