@@ -7,7 +7,6 @@
 
 namespace splotchcl {
 
-// Sums over square cells, row by row.
 struct CellSums {
   int side = 0;  // of a cell, in pixels of the grid
   int columns = 0, rows = 0;

@@ -20,7 +20,6 @@
 namespace splotchcl {
 namespace {
 
-// The plan that a frame is first drawn by.
 void all_cores(std::size_t count, std::size_t block_size,
                const std::function<void(std::size_t, std::size_t)>& work) {
   for_blocks(count, block_size, work);
@@ -90,7 +89,6 @@ void cut_between(const std::vector<Blocks>& lines, Halves& best) {
   }
 }
 
-// A rectangle and what it could be cut into.
 struct Part {
   Blocks whole;
   Halves halves;

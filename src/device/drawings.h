@@ -12,7 +12,6 @@
 
 namespace splotchcl {
 
-// A picture and how well it keeps its promise.
 struct DrawnPicture {
   Image image;
   Certificate certificate;
@@ -24,8 +23,6 @@ void paste(const DrawnPicture& part, const Rectangle& at, DrawnPicture& whole);
 // The largest of these that the picture has: the worst block that kept the promise at first may
 // have been drawn again with others.
 ErrorParts worst_within(const std::vector<ErrorParts>& candidates, double error_of_promise);
-
-// What a frame is drawn by after a drawing that did not keep its promise.
 
 // The plan of the next drawing of a frame that did not keep its promise in `drawings` of them.
 FramePlan next_plan(const Frame& frame, const FramePlan& plan, const Certificate& certificate,

@@ -113,7 +113,6 @@ void Pipeline::add_chunk(const ParticleChunk& chunk, SplatLight& light) {
   counts_ += particles;
 }
 
-// What the walk along an ordered frame goes by.
 struct Pipeline::Order {
   SplatSlices slices;
   Relay relay;
@@ -248,7 +247,6 @@ std::vector<CloudAround> Pipeline::find_around(const std::vector<ChunkBlocks>& o
   return clouds;
 }
 
-// Of an ordered frame.
 void Pipeline::take_around(std::vector<CloudAround> clouds) {
   if (CloudsInLists::can_hold(context_, clouds)) {
     surroundings_.end_nearer(clouds);
@@ -260,7 +258,6 @@ void Pipeline::take_around(std::vector<CloudAround> clouds) {
   }
 }
 
-// Which clouds around the camera lie in which slices.
 std::vector<CloudRange> Pipeline::slice_around(const std::vector<KeySlice>& slices) const {
   std::vector<std::uint64_t> keys = in_lists_.keys();
   for (const CloudAround& cloud : around_.clouds())

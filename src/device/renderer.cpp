@@ -31,13 +31,11 @@ void note_check(const Certificate& certificate, FrameCheck& check) {
   check.blocks = certificate.blocks;
 }
 
-// What is known of splats once they are drawn.
 struct DrawnSplats {
   ReadSplats read;
   DrawCounts counts;
 };
 
-// Of each stage the sum.
 void add_times(const std::vector<StageTime>& times, std::vector<StageTime>& sums) {
   for (const StageTime& time : times) {
     const auto sum = std::find_if(sums.begin(), sums.end(),
@@ -272,7 +270,6 @@ class Renderer::State::Rendering {
     return true;
   }
 
-  // Draws, and what was drawn.
   Image draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
     const auto asked = std::chrono::steady_clock::now();
     const std::lock_guard turn(state_.of_device);

@@ -23,7 +23,6 @@
 namespace splotchcl {
 namespace {
 
-// Bytes of the buffers of one frame, by what they hold.
 class FrameBuffers {
  public:
   FrameBuffers(const Frame& frame, const FramePlan& plan, const Variant& variant,
@@ -83,7 +82,6 @@ class FrameBuffers {
            sizeof(float);
   }
 
-  // How many leaves of a sum are held at one time.
   std::uint64_t held_leaves() const {
     const std::size_t chunks = particle_chunks(frame_, traits_).size();
     return std::max<std::size_t>(1, most_held_leaves(sum_leaves(chunks, traits_).size()));
@@ -104,7 +102,6 @@ class FrameBuffers {
     return count * (variant_.splat_bytes() + variant_.extended_splat_bytes());
   }
 
-  // Which tiles each is listed in.
   std::uint64_t tiles(std::uint64_t splats) const {
     return splats * (variant_.rows ? sizeof(std::uint32_t)
                                    : sizeof(shared::SplatTiles) + sizeof(std::uint32_t));
@@ -126,7 +123,6 @@ class FrameBuffers {
     return entry_capacity(plan_, traits_) * variant_.tile_splat_bytes();
   }
 
-  // Counts per tile of each block, and the lists.
   std::uint64_t lists(std::uint64_t blocks) const {
     const std::uint64_t capacity = entry_capacity(plan_, traits_);
     const std::uint64_t segments = layout_.tile_count + capacity / traits_.segment_length + 1;
@@ -177,14 +173,12 @@ class FrameBuffers {
   const PictureLayout layout_;
 };
 
-// How much there is to do for the splats of a frame.
 struct SplatWork {
   double splats = 0;        // that reach the picture
   double tile_entries = 0;  // summed over the tiles that they touch
   double row_parts = 0;     // eight pixels of a row each
 };
 
-// In sigmas.
 double extent_of(const SampledCloud& cloud, const Frame& frame, const FramePlan& plan) {
   if (frame.kernel.cut) return *frame.kernel.cut;
   const double edge = cloud.light * static_cast<double>(plan.splats.inverse_edge);
@@ -299,7 +293,6 @@ std::string count(double number) {
   return number < 1e5 ? fmt::format("{:.0f}", number) : fmt::format("{:.3g} million", number / 1e6);
 }
 
-// Two digits, or all before the point.
 std::string rounded(double number) {
   return number < 10 ? fmt::format("{:.2g}", number) : fmt::format("{:.0f}", number);
 }

@@ -104,7 +104,6 @@ class SmoothPicture::Nodes {
     return *std::max_element(largest.begin(), largest.end());
   }
 
-  // A row of `part`: of each channel its pixels.
   void row(const Rectangle& part, int y, std::vector<double>& channels) const {
     const auto width = static_cast<std::size_t>(part.width);
     channels.resize(channels_ * width);

@@ -1,5 +1,4 @@
 #include "device/stages.h"
-#include "device/stages/group_sorter.h"
 #include "device/stages/sorter.h"
 #include "testing.h"
 

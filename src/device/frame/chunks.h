@@ -23,7 +23,6 @@ struct ParticleChunk {
 // How long the chunks of a component of `count` particles are, but the last: as few as are no
 // longer than a chunk may be, of whole blocks.
 std::uint64_t particles_per_chunk(std::uint64_t count, const DeviceTraits& traits);
-// The chunks of all components.
 std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits);
 
 // A chunk, and which of its blocks of DeviceTraits::project_block particles are looked through.
@@ -31,7 +30,6 @@ struct ChunkBlocks {
   ParticleChunk chunk;
   std::vector<std::uint32_t> blocks;
 };
-// All blocks of the chunks.
 std::vector<ChunkBlocks> all_blocks(const std::vector<ParticleChunk>& chunks,
                                     const DeviceTraits& traits);
 

@@ -83,7 +83,6 @@ shared::GridPart drawn_part(const shared::GridPart& wanted, std::size_t g, bool 
       reach_of_blurs(pyramid));
 }
 
-// The tiles that cover the part.
 void set_tiles(const shared::GridPart& part, int tile_width, int tile_height, shared::Grid& grid) {
   grid.first_x = part.left / tile_width * tile_width;
   grid.first_y = part.top / tile_height * tile_height;

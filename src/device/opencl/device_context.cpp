@@ -68,7 +68,6 @@ std::string names_of(const std::vector<compute::device>& devices) {
   return names;
 }
 
-// A GPU if there is one, else the first of the others.
 std::size_t default_index(const std::vector<compute::device>& devices) {
   const auto gpu = std::find_if(devices.begin(), devices.end(), is_gpu);
   return gpu == devices.end() ? 0 : static_cast<std::size_t>(gpu - devices.begin());

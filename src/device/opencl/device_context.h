@@ -53,7 +53,6 @@ struct LaunchRecord {
   compute::event event;                    // says when it ran, once the queue has finished
 };
 
-// One device with its queue and what all stages share.
 struct DeviceContext {
   explicit DeviceContext(const compute::device& chosen);
 

@@ -57,7 +57,6 @@ struct DeviceTraits {
 
   std::uint32_t chunk_length() const { return project_block * chunk_blocks; }
   Choices lanes() const { return lanes_of(rows); }  // of programs that do not depend on the frame
-  // What tells the shapes apart, for people.
   std::string shape_name() const {
     return std::string(rows ? "rows" : "groups") + (rows_of_16 ? " of 16" : "");
   }
@@ -69,7 +68,6 @@ struct DeviceTraits {
   void take_sizes_of_groups();
 };
 
-// With the shape that suits the device.
 DeviceTraits traits_of(const compute::device& device);
 
 }  // namespace splotchcl

@@ -45,7 +45,6 @@ std::string key_of(const compute::device& device, const ProgramText& text) {
          '\n' + text.options + '\n' + text.source;
 }
 
-// All that its text is made of.
 std::string key_of(const ProgramSource& source) {
   return source.file + (source.denormals_are_zero ? "\n0\n" : "\n") + source.defines + '\n' +
          source.variant + '\n' + source.more;
@@ -74,7 +73,6 @@ std::string binary_by(ProgramCompiler& compiler, const std::string& device,
   }
 }
 
-// Adds its life to `seconds`.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}

@@ -132,7 +132,6 @@ constexpr bool is_of_word(char letter) {
          (letter >= 'a' && letter <= 'z');
 }
 
-// Of a definition, #define NAME value.
 std::string_view name_in(std::string_view line) {
   const std::string_view name = line.substr(line.find(' ') + 1);
   return name.substr(0, name.find_first_of(" \n"));

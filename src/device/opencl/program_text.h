@@ -31,7 +31,6 @@ inline Choices lanes_of(bool rows) {
   return rows ? Choices{"LANES_8"} : Choices{};
 }
 
-// The line of a program that defines the choice.
 std::string define(const std::string& choice);
 
 ProgramSource program_source(const std::string& file, const Choices& choices = {});

@@ -64,7 +64,6 @@ T take(const Communicator::Bytes& bytes, std::size_t& next) {
   return value;
 }
 
-// What is told before light comes.
 struct LightHeader {
   std::uint32_t used_grids = 0;
   std::uint32_t cells = 0;
@@ -73,7 +72,6 @@ struct LightHeader {
 // The host holds so many floats at a time.
 constexpr std::uint64_t most_at_once = 16u << 20;
 
-// Calls pass(floats, first of all, how many) for stretches that it holds.
 template <class Pass>
 void in_stretches(std::uint64_t first, std::uint64_t count, const Pass& pass) {
   std::vector<float> floats;

@@ -90,7 +90,6 @@ void GroupBinner::count(CountedSplats& counted) const {
       lengths_of_lists(device.pool.download(counted.tile_counts, counters), context_.layout);
 }
 
-// Where the entries of each splat begin.
 Buffer<std::uint32_t> GroupBinner::find_entries(
     const CountedSplats& counted, const shared::GroupBinParameters& parameters) const {
   DeviceContext& device = context_.device;
@@ -106,7 +105,6 @@ Buffer<std::uint32_t> GroupBinner::find_entries(
   return first_entries;
 }
 
-// Tiles and splats of all entries, in the splats' order.
 KeyedValues GroupBinner::emit(const CountedSplats& counted,
                               const shared::GroupBinParameters& parameters) const {
   DeviceContext& device = context_.device;
@@ -237,7 +235,6 @@ CountedSplats Binner::count(const SortedSplats& sorted, const SplatChunk& chunk)
   return counted;
 }
 
-// What a chunk of sorted splats needs to be counted.
 void Binner::cut_in_blocks(CountedSplats& counted) const {
   shared::BinParameters& parameters = counted.parameters;
   const std::uint32_t count = parameters.end - parameters.first;
@@ -277,7 +274,6 @@ void Binner::scan_blocks(CountedSplats& counted) const {
   counted.lengths = device.pool.download(counted.tile_lengths, parameters.tile_count);
 }
 
-// What the lists of a band will be, without their memory.
 TileLists Binner::measure_lists(const std::vector<std::uint32_t>& lengths,
                                 const TileBand& band) const {
   const std::vector<shared::Grid>& grids = context_.layout.grids;

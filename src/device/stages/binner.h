@@ -7,7 +7,7 @@
 #include "device/frame/chunks.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
-#include "device/stages/group_sorter.h"
+#include "device/stages/sorter.h"
 
 namespace splotchcl {
 

@@ -26,7 +26,22 @@ void lay_out(int (*shift_of)(int octave), std::uint32_t width, std::uint32_t hei
   }
 }
 
-// Values of tiles, where those of an octave lie.
+int side_of(const shared::OctaveCells& octave) {
+  return 1 << octave.pixel_bits / 2;
+}
+
+// Of the cells in a row of a tile, among those of their octave in the tile.
+std::vector<std::size_t> numbers_of_cells(int columns, int row) {
+  std::vector<std::size_t> numbers(static_cast<std::size_t>(columns));
+  for (std::size_t column = 0; column < numbers.size(); ++column) {
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      numbers[column] |= (column >> bit & 1) << 2 * bit;
+      numbers[column] |= (static_cast<std::size_t>(row) >> bit & 1) << (2 * bit + 1);
+    }
+  }
+  return numbers;
+}
+
 struct TileCells {
   const float* values;
   std::size_t cells_per_tile;
@@ -35,13 +50,41 @@ struct TileCells {
   std::size_t first_of(std::size_t tile, const shared::OctaveCells& octave) const {
     return tile * cells_per_tile + octave.first;
   }
-  // Whether nothing was collected of the octave in any tile of the grid.
-  bool is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const;
-  // Room for those of the octave in all tiles of the grid.
-  CellSums sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const;
-  // Adds those in a row of the grid's tiles to those of other grids of its level.
+  bool is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+    const auto tiles =
+        static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
+    const auto cells = static_cast<std::size_t>((tile_width * tile_height) >> octave.pixel_bits);
+    for (std::size_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
+      const float* first = values + first_of(tile, octave);
+      if (std::any_of(first, first + cells, [](float value) { return value != 0; })) return false;
+    }
+    return true;
+  }
+
+  CellSums sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+    CellSums sums;
+    sums.side = side_of(octave);
+    sums.columns = grid.tiles_x * (tile_width / sums.side);
+    sums.rows = grid.tiles_y * (tile_height / sums.side);
+    sums.values.resize(static_cast<std::size_t>(sums.columns) *
+                       static_cast<std::size_t>(sums.rows));
+    return sums;
+  }
+
   void add_row(const shared::OctaveCells& octave, const shared::Grid& grid, int tile_row,
-               CellSums& sums) const;
+               CellSums& sums) const {
+    const int across = tile_width / side_of(octave), along = tile_height / side_of(octave);
+    float* to = sums.values.data() + std::ptrdiff_t{tile_row} * along * sums.columns;
+    for (int row = 0; row < along; ++row) {
+      const std::vector<std::size_t> numbers = numbers_of_cells(across, row);
+      for (int column = 0; column < grid.tiles_x; ++column) {
+        const auto tile = static_cast<std::size_t>(tile_row * grid.tiles_x + column);
+        const float* const from = values + first_of(grid.first_tile + tile, octave);
+        for (const std::size_t number : numbers)
+          *to++ += from[number];
+      }
+    }
+  }
 };
 
 // An octave of splats on the grids of a level: those that have some, and what is gathered of them.
@@ -52,50 +95,10 @@ struct OctaveOfLevel {
   PeakCells cells;
 };
 
-// A row of its tiles.
 struct TileRow {
   std::size_t octave;
   int row;
 };
-
-int side_of(const shared::OctaveCells& octave) {
-  return 1 << octave.pixel_bits / 2;
-}
-
-bool TileCells::is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
-  const auto tiles =
-      static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
-  const auto cells = static_cast<std::size_t>((tile_width * tile_height) >> octave.pixel_bits);
-  for (std::size_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
-    const float* first = values + first_of(tile, octave);
-    if (std::any_of(first, first + cells, [](float value) { return value != 0; })) return false;
-  }
-  return true;
-}
-
-CellSums TileCells::sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const {
-  CellSums sums;
-  sums.side = side_of(octave);
-  sums.columns = grid.tiles_x * (tile_width / sums.side);
-  sums.rows = grid.tiles_y * (tile_height / sums.side);
-  sums.values.resize(static_cast<std::size_t>(sums.columns) * static_cast<std::size_t>(sums.rows));
-  return sums;
-}
-
-void TileCells::add_row(const shared::OctaveCells& octave, const shared::Grid& grid, int tile_row,
-                        CellSums& sums) const {
-  const int across = tile_width / side_of(octave), along = tile_height / side_of(octave);
-  float* to = sums.values.data() + std::ptrdiff_t{tile_row} * along * sums.columns;
-  for (int row = 0; row < along; ++row) {
-    const std::vector<std::size_t> numbers = numbers_of_cells(across, row);
-    for (int column = 0; column < grid.tiles_x; ++column) {
-      const auto tile = static_cast<std::size_t>(tile_row * grid.tiles_x + column);
-      const float* const from = values + first_of(grid.first_tile + tile, octave);
-      for (const std::size_t number : numbers)
-        *to++ += from[number];
-    }
-  }
-}
 
 // The picture's own grid is a level of its own, apart from others that are as fine.
 std::vector<OctaveOfLevel> octaves_of_levels(const GridPyramid& pyramid) {
@@ -131,17 +134,6 @@ void lay_out_cells(const Variant& variant, shared::CertifyParameters& parameters
     lay_out(shift_of, width, height, octaves, parameters.cells_per_tile);
   }
   parameters.listed = parameters.cells_per_tile++;
-}
-
-std::vector<std::size_t> numbers_of_cells(int columns, int row) {
-  std::vector<std::size_t> numbers(static_cast<std::size_t>(columns));
-  for (std::size_t column = 0; column < numbers.size(); ++column) {
-    for (unsigned bit = 0; bit < 8; ++bit) {
-      numbers[column] |= (column >> bit & 1) << 2 * bit;
-      numbers[column] |= (static_cast<std::size_t>(row) >> bit & 1) << (2 * bit + 1);
-    }
-  }
-  return numbers;
 }
 
 Certifier::Certifier(const StageContext& context) : context_(context) {

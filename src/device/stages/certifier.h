@@ -18,9 +18,6 @@ namespace splotchcl {
 // numbers of their pixels would not follow each other (certify.h).
 void lay_out_cells(const Variant& variant, shared::CertifyParameters& parameters);
 
-// The numbers of the cells in a row of a tile, among those of their octave in the tile.
-std::vector<std::size_t> numbers_of_cells(int columns, int row);
-
 // What was collected, read back tile by tile: to be gathered while the device does other work.
 struct CellsOfTiles {
   std::vector<float> values;  // none: nothing was collected

@@ -21,7 +21,7 @@ namespace {
 
 template <typename Real>
 void split_in_two(double value, Real& high, Real& low) {
-  // Volatile, as in float_pair.h.
+  // Volatile, as in nearest_float().
   const volatile Real nearest = static_cast<Real>(value);
   high = nearest;
   low = std::isfinite(high) ? static_cast<Real>(value - static_cast<double>(high)) : 0;

@@ -20,8 +20,6 @@ namespace {
 
 static_assert(width_octaves == WIDTH_OCTAVES);
 
-// What follows from the counts of blocks that were projected.
-
 ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   ParticleCounts sum;
   for (const shared::BlockCounts& block : blocks) {
@@ -33,7 +31,6 @@ ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   return sum;
 }
 
-// Which of a chunk's blocks have particles around the camera.
 std::vector<std::uint32_t> blocks_around(const shared::BlockCounts* first, std::size_t count) {
   std::vector<std::uint32_t> blocks;
   for (std::uint32_t b = 0; b < count; ++b) {

@@ -109,7 +109,6 @@ double phi(double y) {
   return y < 1e-4 ? 1 - y / 2 + y * y / 6 : -std::expm1(-y) / y;
 }
 
-// The largest of E w and A w.
 double brightest_of(const CloudAround& cloud) {
   double brightest = 0;
   for (std::size_t c = 0; c < 3; ++c)

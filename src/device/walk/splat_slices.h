@@ -24,7 +24,6 @@ class KeyCounter {
 
   // Of all keys first of all; waits for the device.
   CountedKeys count(const KeyWindow& window, int shift);
-  // How many of a window's splats one chunk has.
   std::uint64_t count_in_chunk(std::size_t chunk, const KeyWindow& window);
   const ParticleCounts& particles() const { return counts_; }
   std::uint32_t left_out() const { return left_out_; }  // blocks out of view
@@ -53,7 +52,6 @@ class KeyCounter {
 // In the memory of the device (picture_layout.h).
 std::uint64_t splat_capacity(const StageContext& context);
 
-// All splats of the frame, projected in one piece.
 KeyedSplats project_whole(const StageContext& context, const Projector& projector,
                           ParticleStore& particles);
 

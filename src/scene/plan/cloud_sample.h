@@ -10,7 +10,6 @@
 
 namespace splotchcl {
 
-// A particle as the picture shows it.
 struct PictureCloud {
   double x = 0, y = 0, sigma = 0;  // pixels of the whole picture
   double of_lens = 0;              // by which a lens widens it, likewise (drawn_width())
@@ -67,7 +66,6 @@ class LightMap {
     std::size_t clouds = 0;
   };
   bool is_at_edge(const Cell& cell) const;
-  // The most of the cell and those beside it.
   Cell most_around(const Cell& cell) const;
   Rectangle part_around(const Cell& cell) const;
 
