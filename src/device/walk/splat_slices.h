@@ -14,41 +14,6 @@
 
 namespace splotchcl {
 
-// Counts the sort keys of chunks of particles without making splats, and remembers of each block
-// which keys it has.
-class KeyCounter {
- public:
-  // All of them outlive it.
-  KeyCounter(const StageContext& context, const Projector& projector, ParticleStore& particles,
-             std::vector<ParticleChunk> chunks);
-
-  // Of all keys first of all; waits for the device.
-  CountedKeys count(const KeyWindow& window, int shift);
-  std::uint64_t count_in_chunk(std::size_t chunk, const KeyWindow& window);
-  const ParticleCounts& particles() const { return counts_; }
-  std::uint32_t left_out() const { return left_out_; }  // blocks out of view
-
-  const std::vector<ParticleChunk>& chunks() const { return chunks_; }
-  ParticleBuffers particles_of(std::size_t chunk) const {
-    return particles_in_view(context_, particles_, chunks_[chunk]);
-  }
-  std::uint64_t most_splats_of(std::size_t chunk) const;
-  // Of each block of the chunk 1 where it has no keys in the window, else 0.
-  std::vector<std::uint32_t> blocks_without(std::size_t chunk, const KeyWindow& window) const;
-  bool has_keys_in(std::size_t chunk, const KeyWindow& window) const;
-
- private:
-  Buffer<std::uint32_t> empty_bins() const;
-
-  const StageContext& context_;
-  const Projector& projector_;
-  ParticleStore& particles_;
-  const std::vector<ParticleChunk> chunks_;
-  std::vector<std::vector<shared::KeyBins>> bins_;  // of each chunk's blocks: key >> 32
-  ParticleCounts counts_;
-  std::uint32_t left_out_ = 0;
-};
-
 // In the memory of the device (picture_layout.h).
 std::uint64_t splat_capacity(const StageContext& context);
 
@@ -92,9 +57,20 @@ class SplatSlices {
   bool has_room_for_all() const;
   void find_whole();
   void count_keys();
+  Buffer<std::uint32_t> empty_bins() const;
+  // Of this rank's chunks, all keys first of all; waits for the device.
+  CountedKeys count_here(const KeyWindow& window, int shift);
   CountedKeys count_everywhere(const KeyWindow& window, int shift);
   std::vector<std::uint64_t> count_chunks(const KeyWindow& window);
   KeyedSplats memory_for(const KeySlice& own, std::uint32_t carried, std::uint32_t more) const;
+  ParticleBuffers particles_of(std::size_t chunk) const {
+    return particles_in_view(context_, particles_, chunks_[chunk]);
+  }
+  std::uint64_t most_splats_of(std::size_t chunk) const;
+  bool has_keys_in(std::size_t chunk, const KeyWindow& window) const;
+  // Puts a chunk's splats of the window from slot `slot` on; how many.
+  std::uint32_t project(std::size_t chunk, const KeyWindow& window, const KeyedSplats& keyed,
+                        std::uint32_t slot) const;
   void project(const KeySlice& own, KeyedSplats& keyed, std::uint32_t first_slot) const;
   void exchange(std::size_t round, const KeyedSplats& keyed, std::uint32_t first_slot);
   std::vector<Communicator::Bytes> share_out(std::size_t round, std::size_t chunk);
@@ -104,7 +80,8 @@ class SplatSlices {
   const Projector& projector_;
   ParticleStore& particles_;
   FrameRanks& ranks_;
-  KeyCounter counter_;
+  const std::vector<ParticleChunk> chunks_;         // this rank's
+  std::vector<std::vector<shared::KeyBins>> bins_;  // of each chunk's blocks: key >> 32
   std::vector<std::uint64_t> chunks_of_ranks_;
   std::uint64_t first_chunk_ = 0;  // number of this rank's first among all
   ParticleCounts counts_;
