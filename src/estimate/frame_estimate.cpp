@@ -297,6 +297,13 @@ std::string rounded(double number) {
   return number < 10 ? fmt::format("{:.2g}", number) : fmt::format("{:.0f}", number);
 }
 
+// "0.12 s", "3.4 min", "2.1 h".
+std::string rounded_duration(double seconds) {
+  if (seconds < 100) return rounded(seconds) + " s";
+  if (seconds < 6000) return rounded(seconds / 60) + " min";
+  return rounded(seconds / 3600) + " h";
+}
+
 }  // namespace
 
 std::uint64_t particle_bytes(const Frame& frame) {
@@ -330,12 +337,6 @@ FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const st
     estimate.seconds = estimate_seconds(frame, plan, work, estimate.compute_units);
   }
   return estimate;
-}
-
-std::string rounded_duration(double seconds) {
-  if (seconds < 100) return rounded(seconds) + " s";
-  if (seconds < 6000) return rounded(seconds / 60) + " min";
-  return rounded(seconds / 3600) + " h";
 }
 
 std::string explain(const FrameEstimate& estimate, int drawings) {

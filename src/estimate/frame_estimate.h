@@ -37,7 +37,4 @@ FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const st
 // of a film.
 std::string explain(const FrameEstimate& estimate, int drawings);
 
-// "0.12 s", "3.4 min", "2.1 h".
-std::string rounded_duration(double seconds);
-
 }  // namespace splotchcl

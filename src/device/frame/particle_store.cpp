@@ -17,6 +17,13 @@
 namespace splotchcl {
 namespace {
 
+// What the device has of the two snapshots: of the first in its own order, of the second as
+// order_second_on_device() puts it. Strides are 0 where one value serves all, or none.
+struct SnapshotColumns {
+  compute::buffer first, second, first_velocity, second_velocity, place_in_second;
+  int first_stride = 0, second_stride = 0, first_velocity_stride = 0, second_velocity_stride = 0;
+};
+
 void copy(const float (&from)[3], float (&to)[3]) {
   std::copy(std::begin(from), std::end(from), std::begin(to));
 }
@@ -78,8 +85,7 @@ void read_ahead_of(const Column& column, std::size_t count, std::uint64_t first,
              width * static_cast<std::size_t>(end));
 }
 
-}  // namespace
-
+// A column of the second snapshot in the order of the particles between the two. Does not wait.
 void order_second_on_device(DeviceContext& device, const IdMatch& match, int values_per_particle,
                             const compute::buffer& second, const compute::buffer& place_in_second,
                             const compute::buffer& appearing, const compute::buffer& ordered) {
@@ -89,6 +95,8 @@ void order_second_on_device(DeviceContext& device, const IdMatch& match, int val
   run(launch, p);
 }
 
+// Makes a column between two snapshots on the device, to the bits of interpolate(): the stage
+// `interpolate`. Does not wait.
 void interpolate_on_device(DeviceContext& device, const ColumnBetween& column,
                            const SnapshotColumns& snapshots, const compute::buffer& values) {
   shared::InterpolateParameters p =
@@ -108,6 +116,8 @@ void interpolate_on_device(DeviceContext& device, const ColumnBetween& column,
   launch.arg(snapshots.place_in_second).arg(values);
   run(launch, p);
 }
+
+}  // namespace
 
 compute::buffer ParticleStore::new_constant(float value) const {
   compute::buffer buffer(device_.context, sizeof(float));

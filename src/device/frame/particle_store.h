@@ -16,23 +16,6 @@
 
 namespace splotchcl {
 
-// What the device has of the two snapshots: of the first in its own order, of the second as
-// order_second_on_device() puts it. Strides are 0 where one value serves all, or none.
-struct SnapshotColumns {
-  compute::buffer first, second, first_velocity, second_velocity, place_in_second;
-  int first_stride = 0, second_stride = 0, first_velocity_stride = 0, second_velocity_stride = 0;
-};
-
-// A column of the second snapshot in the order of the particles between the two. Does not wait.
-void order_second_on_device(DeviceContext& device, const IdMatch& match, int values_per_particle,
-                            const compute::buffer& second, const compute::buffer& place_in_second,
-                            const compute::buffer& appearing, const compute::buffer& ordered);
-
-// Makes a column between two snapshots on the device, to the bits of interpolate(): the stage
-// `interpolate`. Does not wait.
-void interpolate_on_device(DeviceContext& device, const ColumnBetween& column,
-                           const SnapshotColumns& snapshots, const compute::buffer& values);
-
 // The device's view of one component's columns, or of a piece of them. On a device that shares the
 // host's memory the buffers lie in the columns themselves and cost nothing.
 struct ParticleBuffers {
@@ -46,10 +29,9 @@ struct ParticleBuffers {
 
 // Keeps columns on the device from frame to frame: a second frame of data that stay moves nothing,
 // one of arrays that may have changed writes them anew. A column is known by its memory, which it
-// keeps alive. Columns between two snapshots are
-// made on the device from theirs, which stay as long as frames between them are drawn. Columns that
-// one buffer of the device does not hold are there in pieces, and those whose values are made as
-// they are wanted in chunks, one at a time.
+// keeps alive. Columns between two snapshots are made on the device from theirs, which stay as long
+// as frames between them are drawn. Columns that one buffer of the device does not hold are there
+// in pieces, and those whose values are made as they are wanted in chunks, one at a time.
 class ParticleStore {
  public:
   // `columns_stay` as in RendererOptions.

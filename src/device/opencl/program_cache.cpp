@@ -87,6 +87,30 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Nothing where the driver refuses the binary: it may, for reasons of its own.
+std::optional<compute::program> program_of_binary(const compute::context& context,
+                                                  const std::string& options,
+                                                  const std::string& binary) {
+  try {
+    compute::program program = compute::program::create_with_binary(
+        reinterpret_cast<const unsigned char*>(binary.data()), binary.size(), context);
+    program.build(options);
+    return program;
+  } catch (const compute::opencl_error&) {
+    return std::nullopt;
+  }
+}
+
+// Of all its kernels, compiled. Empty where the driver has none to give.
+std::string binary_of(const compute::program& program) {
+  try {
+    const std::vector<unsigned char> binary = program.binary();
+    return std::string(binary.begin(), binary.end());
+  } catch (const compute::opencl_error&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 compute::program build_program(const compute::context& context, const ProgramText& text,
@@ -105,28 +129,6 @@ compute::program build_program(const compute::context& context, const ProgramTex
                       error.error_string() + "; " + hint + program.build_log());
   }
   return program;
-}
-
-std::optional<compute::program> program_of_binary(const compute::context& context,
-                                                  const std::string& options,
-                                                  const std::string& binary) {
-  try {
-    compute::program program = compute::program::create_with_binary(
-        reinterpret_cast<const unsigned char*>(binary.data()), binary.size(), context);
-    program.build(options);
-    return program;
-  } catch (const compute::opencl_error&) {
-    return std::nullopt;
-  }
-}
-
-std::string binary_of(const compute::program& program) {
-  try {
-    const std::vector<unsigned char> binary = program.binary();
-    return std::string(binary.begin(), binary.end());
-  } catch (const compute::opencl_error&) {
-    return {};
-  }
 }
 
 const compute::context* LocalCompiler::context_on(const std::string& device) {

@@ -19,14 +19,6 @@ namespace splotchcl {
 compute::program build_program(const compute::context& context, const ProgramText& text,
                                const std::string& names);
 
-// Nothing where the driver refuses the binary: it may, for reasons of its own.
-std::optional<compute::program> program_of_binary(const compute::context& context,
-                                                  const std::string& options,
-                                                  const std::string& binary);
-
-// Of all its kernels, compiled. Empty where the driver has none to give.
-std::string binary_of(const compute::program& program);
-
 // The other process's part: compiles in this one, on the first device of the names that are asked
 // for. Gives nothing where that fails. Keeps what PoCL has read for its first program.
 class LocalCompiler : public ProgramCompiler {

@@ -9,9 +9,6 @@
 
 namespace splotchcl {
 
-// What a command took by the device's own clock, once the queue has finished.
-double seconds_of(const compute::event& event);
-
 class StageTimer {
  public:
   // What several cores may share, or not: on a processor a fill or a copy is one thread's work.
