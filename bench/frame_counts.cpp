@@ -7,7 +7,7 @@
 
 #include "device/opencl/device_context.h"
 #include "device/pipeline.h"
-#include "estimate/device_memory.h"
+#include "estimate/frame_estimate.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl::bench {

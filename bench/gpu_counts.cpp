@@ -138,7 +138,7 @@ void print_counts(const Arguments& arguments) {
   const Frame frame = load_frame(scene, *snapshot, notes);
   DeviceContext device(choose_device(arguments.text("device", "")));
   device.traits.gpu_memory = std::uint64_t{80} << 30;
-  choose_shape(device.traits, false);
+  device.traits.choose_shape(false);
   PlanOptions in_order;  // as GPUs draw
   in_order.slabs = 0;
   const FramePlan plan = Renderer::first_plan(frame, in_order, true);

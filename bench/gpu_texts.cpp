@@ -10,7 +10,7 @@
 #include "arguments.h"
 #include "device/frame/variant.h"
 #include "device/opencl/device_traits.h"
-#include "device/opencl/kernel_text.h"
+#include "device/opencl/program_text.h"
 #include "device/stages/stage_programs.h"
 #include "splotchcl/error.h"
 #include "synthetic.h"
@@ -35,7 +35,7 @@ Frame headline_frame(LightPlan light, bool original_kernel) {
 
 Variant gpu_variant(const Frame& frame) {
   DeviceTraits traits;
-  choose_shape(traits, false);
+  traits.choose_shape(false);
   traits.native_exp2 = true;
   PlanOptions without_slabs;  // as GPUs draw
   without_slabs.slabs = 0;

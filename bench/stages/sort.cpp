@@ -73,7 +73,7 @@ void sort_on_device(benchmark::State& state, DeviceContext& device, const Number
     Buffer<std::uint32_t> sorted;
     device.queue.finish();
     timer.time([&] {
-      sorted = Sorter(device).sort(std::move(device_keys), std::move(device_values),
+      sorted = Sorter(device).sort(std::move(device_keys), {}, std::move(device_values),
                                    static_cast<std::uint32_t>(keys.size()));
       device.queue.finish();
     });

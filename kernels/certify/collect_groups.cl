@@ -17,7 +17,7 @@
 #define SPLATS_OF_WORD 32
 #define WORDS (GROUP_ITEMS / SPLATS_OF_WORD)
 
-// Those of a tile (cell_layout.h) are no more than 3.5 bytes of floats for each pixel and one.
+// Those of a tile (lay_out_cells) are no more than 3.5 bytes of floats for each pixel and one.
 #define CELLS (TILE_WIDTH * TILE_HEIGHT * 7 / 8 + 1)
 #define CELLS_OF_ITEM ((CELLS - 1) / GROUP_ITEMS + 1)
 

@@ -30,7 +30,7 @@ OVERLOADED static inline VALUE times_power_of_two(VALUE value, VALUE in_low_bits
 }
 
 // 2^t for t <= 0. NATIVE_EXP2: that of a GPU, where it has been found as exact as five digits
-// (src/device/opencl/native_exp2.h).
+// (src/device/opencl/device_context.h).
 OVERLOADED static inline VALUE exp2_negative(VALUE t) {
   if (NATIVE_EXP2) return native_exp2(t);
   t = max(t, (VALUE)(-126.0f));

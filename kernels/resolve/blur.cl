@@ -1,5 +1,5 @@
 // A grid whose splats were drawn narrower than they are is blurred once to their width
-// (blur_filter.h): along x into a temporary, along y into the target. Of all grids those parts are
+// (grid_filters.h): along x into a temporary, along y into the target. Of all grids those parts are
 // in memory that are looked at (picture_layout.h).
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.cl"

@@ -58,7 +58,6 @@ double error_of_all_pixels(const CollectedSplats& splats, const FramePlan& plan)
          (plan.certify ? of_the_light : 0) + splats.around * plan.shares.promise;
 }
 
-// The same in all blocks.
 Certificate even_certificate(const Image& image, double error, double promise) {
   Certificate certificate;
   certificate.blocks = BlockErrors(image.width, image.height);
@@ -118,7 +117,6 @@ class FrameErrors {
 
   std::size_t block_count() const { return picture_.blocks.size(); }
 
-  // What is promised in a block, of light.
   double promise_of(std::size_t block) const { return promise_ * picture_.blocks[block].allowed; }
 
   // Over what is promised there; and of each octave its part.

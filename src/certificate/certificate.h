@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "certificate/peak_cells.h"
+#include "certificate/cells.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/frame_check.h"
 #include "splotchcl/image.h"
@@ -25,7 +25,6 @@ struct Certificate {
   bool keeps_promise() const { return error_of_promise <= 1; }
 };
 
-// What was collected of a drawn frame.
 struct CollectedSplats {
   std::vector<PeakCells> cells;
   double longest_list = 0;  // splats of one tile

@@ -96,11 +96,13 @@ double ColorLight::of_pixel(const float* pixel, double deepest) const {
   return brightest > 0 ? of_depth(faintest, brightest, deepest, source_, contrast_) : 0;
 }
 
-double ColorLight::of_brightest(const PixelBlock& pixels, double deepest) const {
+template <class OfPixel>
+double ColorLight::largest_in(std::size_t block, const OfPixel& of_pixel) const {
+  const PixelBlock pixels = pixels_of_block(block, BlockErrors::blocks_along(image_.width));
   double largest = 0;
   for (int y = pixels.y0; y < std::min(pixels.y1, image_.height); ++y) {
     for (int x = pixels.x0; x < std::min(pixels.x1, image_.width); ++x)
-      largest = std::max(largest, of_pixel(image_.at(x, y), deepest));
+      largest = std::max(largest, of_pixel(image_.at(x, y)));
   }
   return largest;
 }
@@ -129,12 +131,8 @@ double ColorLight::bound_of_pixel(const float* pixel, double deepest) const {
 
 double ColorLight::bound_in_block(std::size_t block, const BlockLight& light) const {
   const double deepest = depth_of(block);
-  const PixelBlock pixels = pixels_of_block(block, BlockErrors::blocks_along(image_.width));
-  double most = 0;
-  for (int y = pixels.y0; y < std::min(pixels.y1, image_.height); ++y) {
-    for (int x = pixels.x0; x < std::min(pixels.x1, image_.width); ++x)
-      most = std::max(most, bound_of_pixel(image_.at(x, y), deepest));
-  }
+  const double most =
+      largest_in(block, [&](const float* pixel) { return bound_of_pixel(pixel, deepest); });
   // A part that may be infinite.
   const double of_itself = light.parts > 0 ? parts_.of_itself * light.parts : 0;
   return std::min(of_itself, parts_.of_brightest * most);
@@ -148,9 +146,9 @@ double ColorLight::in_block(std::size_t block, const BlockLight& light, double d
   const double of_itself = light.parts > 0 ? parts_.of_itself * light.parts : 0;
   if (of_itself <= negligible) return of_itself;
   const double deepest = depth_of(block);
-  const PixelBlock pixels = pixels_of_block(block, BlockErrors::blocks_along(image_.width));
   double most = at_most(light.most, deepest);
-  if (parts_.of_brightest * most > negligible) most = of_brightest(pixels, deepest);
+  if (parts_.of_brightest * most > negligible)
+    most = largest_in(block, [&](const float* pixel) { return of_pixel(pixel, deepest); });
   if (light_ == LightPlan::ordered)
     most = most * (1 + light.behind) + (deepest > opaque ? std::max(deepest, depth) : 0);
   return std::min(of_itself, parts_.of_brightest * most);

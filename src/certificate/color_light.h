@@ -49,7 +49,8 @@ class ColorLight {
  private:
   double at_most(double brightest, double deepest) const;
   double of_pixel(const float* pixel, double deepest) const;
-  double of_brightest(const PixelBlock& pixels, double deepest) const;
+  template <class OfPixel>
+  double largest_in(std::size_t block, const OfPixel& of_pixel) const;
   double depth_of(std::size_t block) const;
   double bound_of_pixel(const float* pixel, double deepest) const;
 

@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "certificate/crowd_cells.h"
+#include "certificate/cells.h"
 #include "certificate/octave_errors.h"
-#include "certificate/peak_cells.h"
 #include "scene/plan/light_structure.h"
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/frame_check.h"
@@ -27,105 +26,6 @@ double drawn_sigma(const SampledCloud& cloud, const FramePlan& plan) {
 // Of a sigma in pixels of the picture (PeakCells::octave).
 int width_octave(double sigma) {
   return sigma < 1 ? 0 : std::min(std::ilogb(sigma) + 1, width_octaves - 1);
-}
-
-// What the ends of splats will do where they do most, over what is promised.
-struct ExpectedEnds {
-  double error = 0;
-  std::array<double, width_octaves> of_octaves{};  // its parts
-};
-
-// Parts of what is promised that do not count.
-constexpr double negligible_end = 1e-3;
-
-// Whatever crop of it is drawn.
-Frame whole_picture(const Frame& frame) {
-  Frame whole;
-  whole.width = frame.width;
-  whole.height = frame.height;
-  whole.crop = {0, 0, frame.width, frame.height};
-  whole.kernel = frame.kernel;
-  return whole;
-}
-
-PeakCells empty_cells(int octave, const Frame& frame) {
-  PeakCells cells;
-  cells.octave = octave;
-  cells.peaks = {1, 1, 1, {0}};
-  CellSums& endings = cells.endings;
-  const int shift = ending_cell_shift(octave);
-  endings.side = 1 << shift;
-  endings.columns = ((frame.width - 1) >> shift) + 1;
-  endings.rows = ((frame.height - 1) >> shift) + 1;
-  endings.values.resize(static_cast<std::size_t>(endings.columns) *
-                        static_cast<std::size_t>(endings.rows));
-  return cells;
-}
-
-// Clouds beside the picture count in the cells at its edge.
-int nearest_cell(double place, int side, int count) {
-  return static_cast<int>(std::clamp(std::floor(place / side), 0.0, count - 1.0));
-}
-
-// What counts of its light for errors (plan.h, light_behind).
-double counted_light(const SampledCloud& cloud, const FramePlan& plan) {
-  return cloud.light * std::max(cloud.emitted_part, plan.light_behind);
-}
-
-// Of the octaves that have any.
-std::vector<PeakCells> cells_of(const std::vector<SampledCloud>& clouds, const Frame& frame,
-                                const FramePlan& plan) {
-  const double brightest = edge_peak(plan.splats);
-  std::array<std::optional<PeakCells>, width_octaves> of_octaves;
-  for (const SampledCloud& cloud : clouds) {
-    const int octave = width_octave(drawn_sigma(cloud, plan));
-    std::optional<PeakCells>& cells = of_octaves[static_cast<std::size_t>(octave)];
-    if (!cells) cells = empty_cells(octave, frame);
-    CellSums& endings = cells->endings;
-    const int column = nearest_cell(cloud.x, endings.side, endings.columns);
-    const int row = nearest_cell(cloud.y, endings.side, endings.rows);
-    endings.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(endings.columns) +
-                   static_cast<std::size_t>(column)] +=
-        static_cast<float>(cloud.weight * std::min(counted_light(cloud, plan), brightest));
-  }
-  std::vector<PeakCells> all;
-  for (std::optional<PeakCells>& cells : of_octaves) {
-    if (cells) all.push_back(std::move(*cells));
-  }
-  return all;
-}
-
-ExpectedEnds ends_in(const PixelBlock& block,
-                     const std::vector<std::optional<OctaveErrors>>& octaves, double promise) {
-  ExpectedEnds ends;
-  for (const std::optional<OctaveErrors>& octave : octaves) {
-    const double part = octave->of_ends(block, negligible_end * promise) / promise;
-    ends.of_octaves[static_cast<std::size_t>(octave->octave())] = part;
-    ends.error += part;
-  }
-  return ends;
-}
-
-// Of all clouds of a frame that has no grid but the picture's own, by the sums of the check
-// (docs/dev/accuracy.md, "Checked after drawing").
-ExpectedEnds expected_ends(const std::vector<SampledCloud>& clouds, const Frame& frame,
-                           const FramePlan& plan, const BlockLoop& loop) {
-  constexpr std::size_t blocks_at_once = 256;
-  const Frame whole = whole_picture(frame);
-  const std::vector<PeakCells> cells = cells_of(clouds, whole, plan);
-  std::vector<std::optional<OctaveErrors>> octaves(cells.size());
-  loop(octaves.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      octaves[i].emplace(cells[i], whole, plan);
-  });
-  const BlockErrors blocks(frame.width, frame.height);
-  std::vector<ExpectedEnds> of_blocks(blocks.errors.size());
-  loop(of_blocks.size(), blocks_at_once, [&](std::size_t first, std::size_t last) {
-    for (std::size_t b = first; b < last; ++b)
-      of_blocks[b] = ends_in(pixels_of_block(b, blocks.columns), octaves, plan.shares.promise);
-  });
-  return *std::max_element(of_blocks.begin(), of_blocks.end(),
-                           [](const auto& a, const auto& b) { return a.error < b.error; });
 }
 
 // More than is found: the check asks for one and a half times as much, and finds what the sample
@@ -229,12 +129,6 @@ bool can_expect_crowds(const Frame& frame, const FramePlan& plan) {
   return !plan.needs_sort() || std::isfinite(brightest_source(frame));
 }
 
-// Of a part of the particles none knows how unevenly all of them lie. Sums without an order are
-// drawn so fast that it would take a part of that, and slabs have ends of their own.
-bool can_expect_ends(const Frame& frame, const FramePlan& plan, bool is_sample) {
-  return plan.needs_sort() && plan.slabs == 0 && !is_sample && !frame.kernel.cut;
-}
-
 // What wider splats of light without absorption need is guessed from how bright it is
 // (make_plan.cpp).
 void keep_narrow_ones(SplatNeeds& needs) {
@@ -245,7 +139,7 @@ void keep_narrow_ones(SplatNeeds& needs) {
 
 // `error` is the most that any of them do.
 void add_needs_of_crowds(const std::vector<Crowd>& crowds, double error, double times,
-                         bool knows_ends, const FramePlan& plan, SplatNeeds& needs) {
+                         const FramePlan& plan, SplatNeeds& needs) {
   double on_grids = 0;
   for (const Crowd& crowd : crowds) {
     if (!crowd.on.are_picture) on_grids = std::max(on_grids, crowd.light);
@@ -254,21 +148,12 @@ void add_needs_of_crowds(const std::vector<Crowd>& crowds, double error, double 
   for (const Crowd& crowd : crowds) {
     const auto octave = static_cast<std::size_t>(crowd.octave);
     WidthNeed& need = needs.widths[octave];
-    if (crowd.light > 0 && !knows_ends) need.farther = std::log(times * error);
+    if (crowd.light > 0) need.farther = std::log(times * error);
     // Beside the picture's own grid no blurred grid may be good enough: they are drawn on it then.
     if (crowd.on.level > 0 || crowd.error <= 0) continue;
     const double had = std::max(1.0, plan.needs.widths[octave].light);
     const double in_proportion = std::min(times * error * had, crowd.light_of_means);
     need.light = std::max({need.light, times * crowd.light, in_proportion});
-  }
-}
-
-void add_needs_of_ends(const ExpectedEnds& ends, SplatNeeds& needs) {
-  constexpr double least_part = 0.03;  // octaves that do less are not drawn farther
-  constexpr double left = 0.3;         // of what is promised
-  for (std::size_t octave = 0; octave < needs.widths.size(); ++octave) {
-    if (ends.of_octaves[octave] > least_part)
-      needs.widths[octave].farther = std::log(ends.error / left);
   }
 }
 
@@ -282,30 +167,16 @@ bool can_be_expected(const FramePlan& plan) {
 std::optional<SplatNeeds> expected_needs(const std::vector<SampledCloud>& clouds,
                                          const Frame& frame, const FramePlan& plan,
                                          const BlockLoop& loop) {
-  // What may be left to the check: more where only a sample is known.
-  constexpr double most_of_sample = 1, most_of_all = 0.3, most_of_ends = 0.7;
-  if (!plan.has_errors_of_splats) return std::nullopt;
+  if (!plan.has_errors_of_splats || !can_expect_crowds(frame, plan)) return std::nullopt;
   const bool is_sample = !clouds.empty() && clouds.front().weight > 1;
-  const bool knows_ends = can_expect_ends(frame, plan, is_sample);
+  const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan, loop);
+  const double error = most_error(crowds), times = is_sample ? margin_of_sample : margin_of_all;
+  // As much may be left to the check.
+  if (error <= 1) return std::nullopt;
   SplatNeeds needs;
-  bool are_any = false;
-  if (knows_ends || can_expect_crowds(frame, plan)) {
-    const std::vector<Crowd> crowds = crowds_of(clouds, is_sample, frame, plan, loop);
-    const double error = most_error(crowds), times = is_sample ? margin_of_sample : margin_of_all;
-    if (error > (knows_ends ? most_of_all : most_of_sample)) {
-      add_needs_of_crowds(crowds, error, times, knows_ends, plan, needs);
-      if (plan.light == LightPlan::emission) keep_narrow_ones(needs);
-      are_any = true;
-    }
-  }
-  if (knows_ends) {
-    const ExpectedEnds ends = expected_ends(clouds, frame, plan, loop);
-    if (ends.error > most_of_ends) {
-      add_needs_of_ends(ends, needs);
-      are_any = true;
-    }
-  }
-  return are_any ? std::optional<SplatNeeds>(needs) : std::nullopt;
+  add_needs_of_crowds(crowds, error, times, plan, needs);
+  if (plan.light == LightPlan::emission) keep_narrow_ones(needs);
+  return needs;
 }
 
 }  // namespace splotchcl

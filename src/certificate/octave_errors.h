@@ -3,8 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "certificate/block_sums.h"
-#include "certificate/peak_cells.h"
+#include "certificate/cells.h"
 #include "scene/plan/splat_limits.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/frame_check.h"

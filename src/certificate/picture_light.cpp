@@ -16,7 +16,6 @@ namespace {
 // (kernels/project/project.h), and there are no more than 2^32.
 constexpr double most_light = 0x1p92;
 
-// Light of one channel in the pixels of a block.
 struct Range {
   double least = std::numeric_limits<double>::max(), most = 0;
 };
@@ -106,7 +105,6 @@ BlockRanges ranges_of(const Image& image, int x0, int y0) {
   return ranges;
 }
 
-// What all blocks of a picture share.
 struct Surroundings {
   LightPlan light;
   std::array<double, 3> source;

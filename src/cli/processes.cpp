@@ -15,7 +15,7 @@
 #include "cli/commands.h"
 #include "common/child_process.h"
 #include "common/guards.h"
-#include "device/opencl/program_build.h"
+#include "device/opencl/program_cache.h"
 #include "ranks/exchange.h"
 #include "ranks/mpi_library.h"
 #include "splotchcl/error.h"

@@ -7,12 +7,8 @@
 namespace splotchcl {
 
 // What a renderer refuses, with an error that says what to do.
-
-// Pictures that it cannot draw.
 void check_frame(const Frame& frame);
-// Particles of ranks that do not draw.
 void check_ranks(const Frame& frame, const Communicator* ranks);
-// Devices without double precision.
 void require_doubles(const DeviceContext& device);
 
 }  // namespace splotchcl

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "certificate/certificate.h"
-#include "device/ranks/splat_packets.h"
+#include "device/ranks/transfers.h"
 #include "device/stages/project_parameters.h"
 #include "device/walk/leaf_sums.h"
 #include "ranks/exchange.h"
@@ -32,9 +32,11 @@ Image Pipeline::draw() {
   counts_ = {};
   around_ = {};
   in_lists_ = {};
-  chunks_with_around_.clear();
   counts_.particles = particle_count(context_.frame);
-  Planes planes = context_.plan.needs_sort() ? draw_ordered(compositor_.start()) : draw_sums();
+  SplatLight light = context_.plan.needs_sort() ? draw_ordered() : draw_sums();
+  Planes planes = std::move(light.planes);
+  cells_ = std::move(light.cells);
+  slab_light_ = std::move(light.slab);
   if (!is_first()) return Image(context_.frame.crop.width, context_.frame.crop.height);
   if (needs_depths(context_.frame, context_.plan)) {
     planes = resolver_.to_picture(std::move(planes));
@@ -45,7 +47,7 @@ Image Pipeline::draw() {
 
 ReadSplats Pipeline::read_collected() const {
   ReadSplats read;
-  read.cells = certifier_.read();
+  read.cells = certifier_.read(cells_);
   CollectedSplats& collected = read.others;
   if (context_.plan.slabs > 0) collected.of_slabs = resolver_.errors_of_slabs(slab_light_);
   if (needs_depths(context_.frame, context_.plan))
@@ -54,21 +56,9 @@ ReadSplats Pipeline::read_collected() const {
   return read;
 }
 
-std::vector<ParticleChunk> Pipeline::particle_chunks() const {
-  return splotchcl::particle_chunks(context_.frame, context_.device.traits);
-}
-
-SplatBlocks Pipeline::project(const ParticleChunk& chunk) {
-  return projector_.project(chunk, particles_in_view(context_, particles_, chunk));
-}
-
-KeyedSplats Pipeline::project_all() {
-  return project_whole(context_, projector_, particles_);
-}
-
 // Order does not matter: particles pass through in chunks, and the working memory is a chunk's and
 // that of a few sums, however many there are.
-Planes Pipeline::draw_sums() {
+SplatLight Pipeline::draw_sums() {
   const std::vector<ParticleChunk> chunks = particle_chunks();
   const std::vector<ChunkRange> leaves = sum_leaves(chunks.size(), context_.device.traits);
   LeafSums sums(context_, leaves.size(), ranks_, transfer_);
@@ -81,13 +71,13 @@ Planes Pipeline::draw_sums() {
   const std::uint64_t own_around = counts_.around;
   add_up(ranks_.all, {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around,
                       &counts_.blocks_left_out, &counts_.tile_entries});
-  if (leaves.empty() || counts_.too_sharp > 0) return compositor_.start();
+  if (leaves.empty() || counts_.too_sharp > 0) return {compositor_.start(), {}, {}};
   std::vector<CloudAround> around;
-  if (counts_.around > 0) around = find_around(chunks_with_around_, own_around);
+  if (counts_.around > 0) around = find_around(counts_.chunks_around, own_around);
   SplatLight light = sums.join();
-  certifier_.put_cells(std::move(light.cells));
-  if (is_first()) surroundings_.draw(around, light.planes);
-  return std::move(light.planes);
+  if (is_first() && !around.empty())
+    surroundings_.draw(around, {0, around.size(), 0}, light.planes);
+  return light;
 }
 
 // Memory for the light that is held while leaves are drawn, before it is needed: taken between two
@@ -95,7 +85,7 @@ Planes Pipeline::draw_sums() {
 std::vector<SplatLight> Pipeline::room_beside(std::size_t leaves) const {
   std::vector<SplatLight> room;
   for (std::size_t held = 1; held < most_held_leaves(leaves); ++held)
-    room.push_back({compositor_.room(), certifier_.room()});
+    room.push_back({compositor_.room(), certifier_.room(), {}});
   return room;
 }
 
@@ -104,34 +94,25 @@ SplatLight Pipeline::draw_leaf(const std::vector<ParticleChunk>& chunks, const C
   light.planes = compositor_.start();
   for (std::size_t i = leaf.first; i < leaf.end && counts_.too_sharp == 0; ++i) {
     tell(i, chunks.size());
-    light.planes = add_chunk(chunks[i], std::move(light.planes));
+    add_chunk(chunks[i], light);
   }
-  light.cells = certifier_.take_cells();
   return light;
 }
 
-Planes Pipeline::add_chunk(const ParticleChunk& chunk, Planes planes) {
+void Pipeline::add_chunk(const ParticleChunk& chunk, SplatLight& light) {
   ranks_.work.particles += chunk.count();
   SplatBlocks blocks = project(chunk);
   counts_.blocks_left_out += blocks.left_out;
   const CountedSplats counted = binner_.count(blocks);
-  planes = draw_lists(counted, counted.bands, std::move(planes));
+  draw_lists(counted, counted.bands, light);
   // Read last: the device has long counted them.
   const ParticleCounts particles = projector_.count(blocks, chunk);
   ranks_.work.splats += particles.visible;
-  counts_.visible += particles.visible;
-  counts_.bad += particles.bad;
-  counts_.too_sharp += particles.too_sharp;
-  counts_.around += particles.around;
-  if (particles.around > 0) {
-    // While the device draws the chunk.
-    if (chunks_with_around_.empty()) surroundings_.get_programs();
-    chunks_with_around_.push_back(particles.chunks_around.front());
-  }
-  return planes;
+  // While the device draws the chunk.
+  if (particles.around > 0 && counts_.around == 0) surroundings_.get_programs();
+  counts_ += particles;
 }
 
-// What the walk along an ordered frame goes by.
 struct Pipeline::Order {
   SplatSlices slices;
   Relay relay;
@@ -143,7 +124,9 @@ struct Pipeline::Order {
 
 // Splats are sorted slice by slice, nearest first, and composited chunk by chunk, each slice behind
 // what comes from the one before. One process that has room for all splats has one slice.
-Planes Pipeline::draw_ordered(Planes planes) {
+SplatLight Pipeline::draw_ordered() {
+  SplatLight light;
+  light.planes = compositor_.start();
   Order order = {{context_, projector_, particles_, ranks_},
                  {context_, projector_, transfer_, ranks_},
                  0,
@@ -152,26 +135,23 @@ Planes Pipeline::draw_ordered(Planes planes) {
   SplatSlices& slices = order.slices;
   slices.find();
   take_counts(slices);
-  if (counts_.too_sharp > 0) return planes;
-  if (counts_.around > 0) take_around(find_around(slices.blocks_around(), slices.own_around()));
+  if (counts_.too_sharp > 0) return light;
+  if (counts_.around > 0) take_around(find_around(counts_.chunks_around, slices.own_around()));
   order.splats = slices.particles().visible + in_lists_.count();
   order.clouds = slice_around(slices.slices());
   order.chunks = splat_chunks(order.splats, context_.plan.slabs, context_.device.traits);
-  if (context_.plan.slabs > 0) slab_light_ = resolver_.start_slabs();
+  if (context_.plan.slabs > 0) light.slab = resolver_.start_slabs();
   // Slabs and layers of clouds are laid over the whole picture.
   order.in_bands = ranks_.size() > 1 && context_.plan.slabs == 0 && around_.clouds().empty() &&
                    slices.has_room_for_copies();
-  SplatLight light;
-  light.planes = std::move(planes);
   for (std::size_t round = 0; round < slices.rounds(); ++round)
-    light = draw_slice(round, order, std::move(light));
-  light = order.relay.bring_home(std::move(light), slab_light_);
+    draw_slice(round, order, light);
+  light = order.relay.bring_home(std::move(light));
   add_up(ranks_.all, {&counts_.tile_entries});
-  certifier_.put_cells(std::move(light.cells));
-  return std::move(light.planes);
+  return light;
 }
 
-SplatLight Pipeline::draw_slice(std::size_t round, Order& order, SplatLight light) {
+void Pipeline::draw_slice(std::size_t round, Order& order, SplatLight& light) {
   Relay& relay = order.relay;
   const std::size_t number = order.slices.number_of_slice(round);
   const CloudRange in_lists = in_lists_.count() > 0 ? order.clouds[number] : CloudRange();
@@ -179,93 +159,81 @@ SplatLight Pipeline::draw_slice(std::size_t round, Order& order, SplatLight ligh
       part_of(with_clouds(order.slices.slices()[number], in_lists), order.chunks);
   KeyedSplats keyed = order.slices.take(round, part.carried, in_lists.count());
   place_around(keyed, part.first, order.clouds[number]);
-  if (round > 0) relay.pass_round(light, slab_light_);
+  if (round > 0) relay.pass_round(light);
   const SortedSplats sorted = sorter_.sort(std::move(keyed));
   relay.take_splats(round, sorted.splats, part.carried);
   // Of a later round the first rank takes all that the last one has before it sends anything.
   if (relay.is_first_rank() && relay.has_other_before(round))
-    light = relay.receive_light(slab_light_);
+    light = relay.receive_light(std::move(light.slab));
   relay.pass_splats(sorted, part.passed_on);
   ranks_.work.splats += part.composited();
-  if (order.in_bands) return draw_bands(sorted, part, order, std::move(light));
-  if (!relay.is_first_rank()) light = relay.receive_light(slab_light_);
-  light = draw_chunks(sorted, part, order, std::move(light));
-  if (number + 1 == order.clouds.size()) light.planes = end_order(std::move(light.planes));
-  relay.send_on(light, slab_light_);
-  return light;
+  if (order.in_bands) return draw_bands(sorted, part, order, light);
+  if (!relay.is_first_rank()) light = relay.receive_light(std::move(light.slab));
+  draw_chunks(sorted, part, order, light);
+  // Clouds around the camera that lie behind all splats.
+  if (number + 1 == order.clouds.size()) {
+    while (const std::optional<CloudLayer> layer = around_.take_before(end_of_keys))
+      draw_around(*layer, light);
+  }
+  relay.send_on(light);
 }
 
 // Clouds around the camera lie between splats. Slabs end there.
-SplatLight Pipeline::draw_chunks(const SortedSplats& sorted, const SlicePart& part,
-                                 const Order& order, SplatLight light) {
-  certifier_.put_cells(std::move(light.cells));
+void Pipeline::draw_chunks(const SortedSplats& sorted, const SlicePart& part, const Order& order,
+                           SplatLight& light) {
   for (std::size_t c = part.first_chunk; c < part.end_chunk; ++c) {
     tell(c, order.chunks.size());
     SplatChunk chunk = order.chunks[c];
     while (const std::optional<CloudLayer> layer = around_.take_before(chunk.first + chunk.count)) {
       const auto before = static_cast<std::uint32_t>(layer->splats_before - chunk.first);
-      light.planes =
-          draw_splats(sorted, {chunk.first - part.first, before, true}, std::move(light.planes));
-      draw_around(*layer, light.planes);
+      draw_splats(sorted, {chunk.first - part.first, before, true}, light);
+      draw_around(*layer, light);
       chunk.first += before;
       chunk.count -= before;
     }
     chunk.first -= part.first;
-    light.planes = draw_splats(sorted, chunk, std::move(light.planes));
+    draw_splats(sorted, chunk, light);
   }
-  light.cells = certifier_.take_cells();
-  return light;
 }
 
 // Band by band of the picture, each as soon as the rank before has passed it on.
-SplatLight Pipeline::draw_bands(const SortedSplats& sorted, const SlicePart& part,
-                                const Order& order, SplatLight light) {
+void Pipeline::draw_bands(const SortedSplats& sorted, const SlicePart& part, const Order& order,
+                          SplatLight& light) {
   std::vector<CountedSplats> counted;
   for (std::size_t c = part.first_chunk; c < part.end_chunk; ++c) {
     SplatChunk chunk = order.chunks[c];
     chunk.first -= part.first;
     counted.push_back(binner_.count(sorted, chunk));
   }
-  const Buffer<float>& cells = certifier_.begin_cells();
-  const LightTransfer::Rows rows = {light.planes, cells, certifier_.cells_per_tile()};
+  certifier_.begin(light.cells);
+  const LightTransfer::Rows rows = {light.planes, light.cells, certifier_.cells_per_tile()};
   for (const TileBand& band : relay_bands(context_.layout, ranks_.size())) {
     if (!order.relay.is_first_rank()) transfer_.receive(rows, band, ranks_.rank() - 1);
     for (const CountedSplats& chunk : counted)
-      light.planes = draw_lists(chunk, parts_in(band, chunk.bands), std::move(light.planes));
+      draw_lists(chunk, parts_in(band, chunk.bands), light);
     if (!order.relay.is_last_rank()) transfer_.send(rows, band, ranks_.rank() + 1);
   }
-  light.cells = certifier_.take_cells();
-  return light;
 }
 
-Planes Pipeline::draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes) {
+void Pipeline::draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, SplatLight& light) {
   if (chunk.count > 0) {
     const CountedSplats counted = binner_.count(sorted, chunk);
-    planes = draw_lists(counted, counted.bands, std::move(planes));
+    draw_lists(counted, counted.bands, light);
   }
   if (context_.plan.slabs > 0 && chunk.ends_slab)
-    planes = resolver_.lay_slab(std::move(planes), slab_light_);
-  return planes;
-}
-
-// Clouds around the camera that lie behind all splats.
-Planes Pipeline::end_order(Planes planes) {
-  while (const std::optional<CloudLayer> layer = around_.take_before(end_of_keys))
-    draw_around(*layer, planes);
-  return planes;
+    light.planes = resolver_.lay_slab(std::move(light.planes), light.slab);
 }
 
 // Tiles do not depend on each other, so lists that do not fit together are made and drawn
 // band by band of the picture, to the same bits.
-Planes Pipeline::draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
-                            Planes planes) {
+void Pipeline::draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
+                          SplatLight& light) {
   for (const TileBand& band : bands) {
     const TileLists lists = binner_.make_lists(counted, band);
     counts_.tile_entries += lists.entry_count;
-    certifier_.collect(lists);
-    planes = compositor_.composite(lists, *counted.splats, std::move(planes));
+    certifier_.collect(lists, light.cells);
+    light.planes = compositor_.composite(lists, *counted.splats, std::move(light.planes));
   }
-  return planes;
 }
 
 std::vector<CloudAround> Pipeline::find_around(const std::vector<ChunkBlocks>& own_blocks,
@@ -279,7 +247,6 @@ std::vector<CloudAround> Pipeline::find_around(const std::vector<ChunkBlocks>& o
   return clouds;
 }
 
-// Of an ordered frame.
 void Pipeline::take_around(std::vector<CloudAround> clouds) {
   if (CloudsInLists::can_hold(context_, clouds)) {
     surroundings_.end_nearer(clouds);
@@ -291,7 +258,6 @@ void Pipeline::take_around(std::vector<CloudAround> clouds) {
   }
 }
 
-// Which clouds around the camera lie in which slices.
 std::vector<CloudRange> Pipeline::slice_around(const std::vector<KeySlice>& slices) const {
   std::vector<std::uint64_t> keys = in_lists_.keys();
   for (const CloudAround& cloud : around_.clouds())
@@ -312,18 +278,14 @@ void Pipeline::place_around(KeyedSplats& keyed, std::uint64_t first, const Cloud
   around_.skip_before(first);
 }
 
-void Pipeline::draw_around(const CloudLayer& layer, const Planes& planes) {
-  surroundings_.draw(around_.clouds(), layer, planes);
-  if (context_.plan.slabs > 0) resolver_.begin_slab(planes, slab_light_);
+void Pipeline::draw_around(const CloudLayer& layer, const SplatLight& light) {
+  surroundings_.draw(around_.clouds(), layer, light.planes);
+  if (context_.plan.slabs > 0) resolver_.begin_slab(light.planes, light.slab);
 }
 
 void Pipeline::take_counts(const SplatSlices& slices) {
-  const ParticleCounts& found = slices.particles();
+  static_cast<ParticleCounts&>(counts_) = slices.particles();
   counts_.blocks_left_out = slices.left_out();
-  counts_.visible = found.visible;
-  counts_.bad = found.bad;
-  counts_.too_sharp = found.too_sharp;
-  counts_.around = found.around;
   const bool alone_in_windows = ranks_.size() == 1 && !slices.is_whole();
   if (slices.rounds() > 1 || alone_in_windows) counts_.windows = slices.slices().size();
 }

@@ -9,12 +9,13 @@
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
-#include "device/ranks/light_transfer.h"
-#include "device/ranks/rank_work.h"
+#include "device/ranks/rank_share.h"
+#include "device/ranks/transfers.h"
 #include "device/stages/binner.h"
 #include "device/stages/certifier.h"
 #include "device/stages/clouds_in_lists.h"
 #include "device/stages/compositor.h"
+#include "device/stages/project_parameters.h"
 #include "device/stages/projector.h"
 #include "device/stages/resolver.h"
 #include "device/stages/sorter.h"
@@ -26,12 +27,9 @@
 
 namespace splotchcl {
 
-struct DrawCounts {
-  std::uint64_t particles = 0;  // in the components
-  std::uint64_t visible = 0, bad = 0;
-  std::uint64_t too_sharp = 0;        // for the plan's precision
-  std::uint64_t around = 0;           // clouds around the camera
-  std::uint64_t in_lists = 0;         // of those, entries of lists
+struct DrawCounts : ParticleCounts {
+  std::uint64_t particles = 0;        // in the components
+  std::uint64_t in_lists = 0;         // of clouds around the camera, entries of lists
   std::uint64_t blocks_left_out = 0;  // of particles, out of view
   std::uint64_t tile_entries = 0;     // splats summed over tiles
   std::uint64_t windows = 0;          // slices of an ordered frame that has no room in one piece
@@ -74,9 +72,13 @@ class Pipeline {
   const DrawCounts& counts() const { return counts_; }  // of what has been drawn, by all ranks
 
   const StageContext& context() const { return context_; }
-  std::vector<ParticleChunk> particle_chunks() const;
-  SplatBlocks project(const ParticleChunk& chunk);
-  KeyedSplats project_all();
+  std::vector<ParticleChunk> particle_chunks() const {
+    return splotchcl::particle_chunks(context_.frame, context_.device.traits);
+  }
+  SplatBlocks project(const ParticleChunk& chunk) {
+    return projector_.project(chunk, particles_in_view(context_, particles_, chunk));
+  }
+  KeyedSplats project_all() { return project_whole(context_, projector_, particles_); }
   const Projector& projector() const { return projector_; }
   const Sorter& sorter() const { return sorter_; }
   const Binner& binner() const { return binner_; }
@@ -87,24 +89,22 @@ class Pipeline {
   bool is_first() const { return ranks_.rank() == 0; }
 
   // A sum: leaf by leaf of a tree, chunk by chunk of the particles.
-  Planes draw_sums();
+  SplatLight draw_sums();
   std::vector<SplatLight> room_beside(std::size_t leaves) const;
   SplatLight draw_leaf(const std::vector<ParticleChunk>& chunks, const ChunkRange& leaf);
-  Planes add_chunk(const ParticleChunk& chunk, Planes planes);
+  void add_chunk(const ParticleChunk& chunk, SplatLight& light);
 
   // An ordered frame: slice by slice of the order, chunk by chunk of the splats.
   struct Order;
-  Planes draw_ordered(Planes planes);
-  SplatLight draw_slice(std::size_t round, Order& order, SplatLight light);
-  SplatLight draw_chunks(const SortedSplats& sorted, const SlicePart& part, const Order& order,
-                         SplatLight light);
-  SplatLight draw_bands(const SortedSplats& sorted, const SlicePart& part, const Order& order,
-                        SplatLight light);
-  Planes draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, Planes planes);
-  Planes end_order(Planes planes);
-
-  Planes draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
-                    Planes planes);
+  SplatLight draw_ordered();
+  void draw_slice(std::size_t round, Order& order, SplatLight& light);
+  void draw_chunks(const SortedSplats& sorted, const SlicePart& part, const Order& order,
+                   SplatLight& light);
+  void draw_bands(const SortedSplats& sorted, const SlicePart& part, const Order& order,
+                  SplatLight& light);
+  void draw_splats(const SortedSplats& sorted, const SplatChunk& chunk, SplatLight& light);
+  void draw_lists(const CountedSplats& counted, const std::vector<TileBand>& bands,
+                  SplatLight& light);
 
   // Clouds around the camera.
   std::vector<CloudAround> find_around(const std::vector<ChunkBlocks>& own_blocks,
@@ -114,7 +114,7 @@ class Pipeline {
   // Puts these clouds among the splats of a slice, the nearest of which is number `first`, or finds
   // their places between them.
   void place_around(KeyedSplats& keyed, std::uint64_t first, const CloudRange& clouds);
-  void draw_around(const CloudLayer& layer, const Planes& planes);
+  void draw_around(const CloudLayer& layer, const SplatLight& light);
 
   void take_counts(const SplatSlices& slices);
   void tell(std::size_t done, std::size_t total) const;
@@ -126,13 +126,13 @@ class Pipeline {
   const Binner binner_;
   Compositor compositor_;
   const Resolver resolver_;
-  Certifier certifier_;
+  const Certifier certifier_;
+  // Of the last picture: what the check needs.
+  Buffer<float> cells_, deepest_;
   SlabLight slab_light_;
-  Buffer<float> deepest_;  // layers of the picture
   const Surroundings surroundings_;
   CloudsInLists in_lists_;  // clouds around the camera that are entries like splats ...
   CloudLayers around_;      // ... or layers between them
-  std::vector<ChunkBlocks> chunks_with_around_;  // of sums
   DrawCounts counts_;
   std::function<void(double)> progress_;
   LoneRank alone_;

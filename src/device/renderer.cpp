@@ -11,10 +11,8 @@
 #include <vector>
 
 #include "certificate/certificate.h"
-#include "device/drawn_picture.h"
-#include "device/failing_parts.h"
+#include "device/drawings.h"
 #include "device/frame_checks.h"
-#include "device/next_drawing.h"
 #include "device/opencl/device_context.h"
 #include "device/opencl/runtime_lock.h"
 #include "device/pipeline.h"
@@ -33,13 +31,11 @@ void note_check(const Certificate& certificate, FrameCheck& check) {
   check.blocks = certificate.blocks;
 }
 
-// What is known of splats once they are drawn.
 struct DrawnSplats {
   ReadSplats read;
   DrawCounts counts;
 };
 
-// Of each stage the sum.
 void add_times(const std::vector<StageTime>& times, std::vector<StageTime>& sums) {
   for (const StageTime& time : times) {
     const auto sum = std::find_if(sums.begin(), sums.end(),
@@ -49,16 +45,6 @@ void add_times(const std::vector<StageTime>& times, std::vector<StageTime>& sums
     } else {
       sum->seconds += time.seconds;
     }
-  }
-}
-
-template <class Draw>
-Image with_device_errors(const DeviceContext& device, const Draw& draw) {
-  try {
-    return draw();
-  } catch (const compute::opencl_error& error) {
-    throw DeviceError("device " + device.device.name() + " failed: " + error.error_string() +
-                      "; draw fewer particles or a smaller picture, or choose another device");
   }
 }
 
@@ -78,7 +64,7 @@ struct Renderer::State {
     // The shape decides for all stages: a processor that is asked for groups runs the kernels and
     // the sizes of a GPU.
     if (options.shape != CompositeShape::automatic) {
-      choose_shape(device.traits, options.shape == CompositeShape::rows);
+      device.traits.choose_shape(options.shape == CompositeShape::rows);
     }
     device.traits.double_numbers &= options.use_double;
     if (options.memory_bytes > 0) device.limit_memory(options.memory_bytes);
@@ -90,6 +76,8 @@ struct Renderer::State {
   }
 
   void join_ranks(const RendererOptions& options);
+  // By this plan, or null: by the one that it chooses.
+  Image render(const Frame& frame, const FramePlan* plan, RenderStats& of_frame);
   // What kernels still read belongs to the caller, who is told of what failed before.
   void finish_quietly();
 
@@ -107,49 +95,6 @@ struct Renderer::State {
   std::atomic<std::uint64_t> ended{0};
 };
 
-// One frame on its way. While the device draws it, others may be planned or checked.
-class Renderer::State::Rendering {
- public:
-  Rendering(State& state, const Frame& frame, RenderStats& stats)
-      : state_(state), frame_(frame), stats_(stats) {
-    stats_ = {};
-  }
-
-  FramePlan first_plan();
-  Image render(const FramePlan& plan);
-
- private:
-  // A plan with what its parts that are to be tried turn out to need.
-  FramePlan try_out(const FramePlan& plan);
-  bool is_first() const { return !state_.ranks || state_.ranks->rank() == 0; }
-  // Draws until the promise is kept.
-  DrawnPicture draw_until_kept(const Frame& frame, const FramePlan& plan);
-  Certificate check(const Frame& frame, const FramePlan& plan, const DrawnSplats& splats,
-                    const Image& image);
-  // Draws those parts of a picture of `plan` again that do not keep the promise, by the plan
-  // `of_parts`, where that takes less than all of it.
-  bool mend(const Frame& frame, const FramePlan& plan, const FramePlan& of_parts,
-            double pixels_of_part, DrawnPicture& picture);
-  // Draws, and what was drawn.
-  Image draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats);
-  Image draw_on_device(const Frame& frame, const FramePlan& plan, DrawnSplats& splats);
-  void take_account(double built_before);
-  void end();
-  void note(const DrawCounts& counts);
-  void note_processes();
-  void note_span(const char* what, std::chrono::steady_clock::time_point begin);
-  // What the first of several ranks knows becomes known to all.
-  void share(Certificate& certificate) const;
-  void share(Image& image) const;
-
-  State& state_;
-  const Frame& frame_;
-  RenderStats& stats_;
-  std::uint64_t number_ = 0;  // as particles are kept by; 0: nothing has been drawn
-  double check_seconds_ = 0;  // of the frame, by the thread that draws
-  RankWork work_;             // this one's, for the frame
-};
-
 // Ranks of one host share its memory.
 void Renderer::State::join_ranks(const RendererOptions& options) {
   if (!options.ranks || options.ranks->size() < 2) return;
@@ -159,7 +104,7 @@ void Renderer::State::join_ranks(const RendererOptions& options) {
   const DeviceTraits& traits = device.traits;
   require_same(*ranks, "device",
                device.device.name() + ", driver " + device.device.driver_version() + ", " +
-                   shape_name(traits) + (traits.double_numbers ? "" : ", no doubles"),
+                   traits.shape_name() + (traits.double_numbers ? "" : ", no doubles"),
                "choose the same everywhere with --device");
 }
 
@@ -171,251 +116,284 @@ void Renderer::State::finish_quietly() {
   device.timer.clear();
 }
 
-FramePlan Renderer::State::Rendering::first_plan() {
-  const auto start = std::chrono::steady_clock::now();
-  FramePlan plan;
-  const auto make = [&] { plan = Renderer::first_plan(frame_, state_.plan_options); };
-  if (frame_.spread) {
-    frame_.spread->agree_on([&] {
-      check_ranks(frame_, state_.ranks.get());
+// One frame on its way. While the device draws it, others may be planned or checked.
+class Renderer::State::Rendering {
+ public:
+  Rendering(State& state, const Frame& frame, RenderStats& stats)
+      : state_(state), frame_(frame), stats_(stats) {
+    stats_ = {};
+  }
+
+  FramePlan first_plan() {
+    const auto start = std::chrono::steady_clock::now();
+    FramePlan plan;
+    const auto make = [&] { plan = Renderer::first_plan(frame_, state_.plan_options); };
+    if (frame_.spread) {
+      frame_.spread->agree_on([&] {
+        check_ranks(frame_, state_.ranks.get());
+        make();
+      });
+    } else {
       make();
-    });
-  } else {
-    make();
-  }
-  note_span("plan", start);
-  return plan;
-}
-
-Image Renderer::State::Rendering::render(const FramePlan& plan) {
-  check_frame(frame_);
-  check_ranks(frame_, state_.ranks.get());
-  const auto start = std::chrono::steady_clock::now();
-  const double host_start = thread_seconds();
-  stats_.device = state_.device.device.name();
-
-  const FetchedParticles fetched(frame_, plan, state_.device.traits);
-  const bool in_order = plan.slabs > 0 && !state_.draws_slabs;
-  const FramePlan first = in_order ? in_order_plan(frame_, plan) : plan;
-  DrawnPicture picture = draw_until_kept(frame_, try_out(first));
-  stats_.check.is_bound = plan.certify && picture.certificate.is_bound;
-  Image image = std::move(picture.image);
-  share(image);
-  end();
-  stats_.total_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  note_processes();
-  const double host_seconds = thread_seconds() - host_start - stats_.build_seconds - check_seconds_;
-  stats_.serial.push_back({"check", check_seconds_});
-  stats_.serial.push_back({"host", std::max(0.0, host_seconds)});
-  return image;
-}
-
-// Others may need more than these parts, of which more is asked for that.
-FramePlan Renderer::State::Rendering::try_out(const FramePlan& plan) {
-  constexpr double part_of_promise = 0.25;
-  constexpr int edge_blocks = 1;
-  FramePlan tried = plan;
-  for (const Rectangle& crop : plan.tried_parts) {
-    Frame part = frame_;
-    part.crop = crop;
-    DrawnSplats splats;
-    const Image image = draw(part, tried, splats);
-    if (splats.counts.too_sharp > 0) break;
-    FramePlan stricter = tried;
-    stricter.shares.promise *= part_of_promise;
-    Certificate certificate;
-    if (is_first())
-      certificate = certify(splats.read.gathered(), image, part, stricter, edge_blocks);
-    share(certificate);
-    if (!certificate.keeps_promise())
-      tried = refine_plan(frame_, tried, with_all_octaves(certificate.needs));
-  }
-  tried.tried_parts.clear();
-  return tried;
-}
-
-Certificate Renderer::State::Rendering::check(const Frame& frame, const FramePlan& plan,
-                                              const DrawnSplats& splats, const Image& image) {
-  const auto start = std::chrono::steady_clock::now();
-  const double before = thread_seconds();
-  Certificate certificate;
-  if (is_first()) {
-    const CollectedSplats collected = splats.read.gathered();
-    certificate = plan.is_extended() ? certify_extended(collected, image, frame, plan)
-                                     : certify(collected, image, frame, plan);
-  }
-  share(certificate);
-  check_seconds_ += thread_seconds() - before;
-  note_span("check", start);
-  note_check(certificate, stats_.check);
-  return certificate;
-}
-
-DrawnPicture Renderer::State::Rendering::draw_until_kept(const Frame& frame,
-                                                         const FramePlan& plan) {
-  FramePlan drawn = plan;
-  for (std::size_t drawings = 1;; ++drawings) {
-    DrawnSplats splats;
-    DrawnPicture picture;
-    picture.image = draw(frame, drawn, splats);
-    note(splats.counts);
-    if (splats.counts.too_sharp > 0) {
-      stats_.drawn_most_exactly = true;
-      drawn = extend_plan(frame, drawn);
-      continue;
     }
-    picture.certificate = check(frame, drawn, splats, picture.image);
-    if (drawn.is_extended() || picture.certificate.keeps_promise()) return picture;
-    const bool in_slabs = drawn.slabs > 0;
-    const FramePlan of_parts = in_slabs ? in_order_plan(frame, drawn)
-                                        : next_plan(frame, drawn, picture.certificate, drawings);
-    const double pixels = pixels_of_part(frame, drawn, splats.counts);
-    if (mend(frame, drawn, of_parts, pixels, picture)) {
-      note(splats.counts);
-      note_check(picture.certificate, stats_.check);
-      return picture;
-    }
-    drawn = in_slabs ? next_plan(frame, drawn, picture.certificate, drawings) : of_parts;
+    note_span("plan", start);
+    return plan;
   }
-}
 
-bool Renderer::State::Rendering::mend(const Frame& frame, const FramePlan& plan,
-                                      const FramePlan& of_parts, double pixels_of_part,
-                                      DrawnPicture& picture) {
-  // Drawing all of the picture again takes no longer than that: what fails is more crowded than the
-  // rest, which counts more where pixels of their own cost little.
-  const double largest_pixel_count = plan.needs_sort() ? 0.7 : 0.5;
-  const Image& image = picture.image;
-  Certificate& certificate = picture.certificate;
-  const std::vector<Rectangle> parts = failing_parts(certificate.blocks, plan.shares.promise,
-                                                     image.width, image.height, pixels_of_part);
-  double pixels = pixels_of_part * static_cast<double>(parts.size());
-  for (const Rectangle& part : parts)
-    pixels += static_cast<double>(part.width) * part.height;
-  if (parts.empty() || pixels > largest_pixel_count * image.width * image.height) return false;
-  FrameCheck check = std::move(stats_.check);
-  std::vector<ErrorParts> worst = {certificate.worst_kept};
-  for (const Rectangle& part : parts) {
-    Frame frame_of_part = frame;
-    frame_of_part.crop = {frame.crop.x + part.x, frame.crop.y + part.y, part.width, part.height};
-    stats_.check = {};
-    paste(draw_until_kept(frame_of_part, of_parts), part, picture);
-    worst.push_back(stats_.check.worst);
-  }
-  stats_.check = std::move(check);
-  const std::vector<float>& errors = certificate.blocks.errors;
-  certificate.error_of_promise =
-      static_cast<double>(*std::max_element(errors.begin(), errors.end())) / plan.shares.promise;
-  certificate.worst = worst_within(worst, certificate.error_of_promise);
-  return true;
-}
+  Image render(const FramePlan& plan) {
+    check_frame(frame_);
+    check_ranks(frame_, state_.ranks.get());
+    const auto start = std::chrono::steady_clock::now();
+    const double host_start = thread_seconds();
+    stats_.device = state_.device.device.name();
 
-Image Renderer::State::Rendering::draw(const Frame& frame, const FramePlan& plan,
-                                       DrawnSplats& splats) {
-  const auto asked = std::chrono::steady_clock::now();
-  const std::lock_guard turn(state_.of_device);
-  const auto start = std::chrono::steady_clock::now();
-  constexpr std::chrono::microseconds worth_telling(50);
-  if (start - asked > worth_telling) note_span("wait", asked);
-  try {
-    state_.particles.end_frame(state_.ended);
-    if (number_ == 0) number_ = state_.particles.begin_frame();
-    Image image = draw_on_device(frame, plan, splats);
-    note_span("draw", start);
+    const FetchedParticles fetched(frame_, plan, state_.device.traits);
+    const bool in_order = plan.slabs > 0 && !state_.draws_slabs;
+    const FramePlan first = in_order ? in_order_plan(frame_, plan) : plan;
+    DrawnPicture picture = draw_until_kept(frame_, try_out(first));
+    stats_.check.is_bound = plan.certify && picture.certificate.is_bound;
+    Image image = std::move(picture.image);
+    share(image);
+    end();
+    stats_.total_seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    note_processes();
+    const double host_seconds =
+        thread_seconds() - host_start - stats_.build_seconds - check_seconds_;
+    stats_.serial.push_back({"check", check_seconds_});
+    stats_.serial.push_back({"host", std::max(0.0, host_seconds)});
     return image;
-  } catch (...) {
-    state_.finish_quietly();
-    throw;
   }
-}
 
-Image Renderer::State::Rendering::draw_on_device(const Frame& frame, const FramePlan& plan,
-                                                 DrawnSplats& splats) {
-  DeviceContext& device = state_.device;
-  if (plan.is_extended()) require_doubles(device);
-  const double built_before = device.programs.build_seconds();
-  device.pool.reset_peak();
-  std::optional<FrameRanks> of_frame;
-  if (state_.ranks) of_frame.emplace(FrameRanks{*state_.ranks, work_});
-  Pipeline pipeline(device, state_.particles, frame, plan, state_.progress,
-                    of_frame ? &*of_frame : nullptr);
-  Image image = pipeline.draw();
-  splats.counts = pipeline.counts();
-  if (of_frame) work_ = of_frame->work;
-  device.queue.finish();
-  const double before = thread_seconds();
-  if (splats.counts.too_sharp == 0 && is_first()) splats.read = pipeline.read_collected();
-  check_seconds_ += thread_seconds() - before;
-  take_account(built_before);
-  return image;
-}
+ private:
+  bool is_first() const { return !state_.ranks || state_.ranks->rank() == 0; }
 
-// Of what the device has done for the frame since the last time.
-void Renderer::State::Rendering::take_account(double built_before) {
-  DeviceContext& device = state_.device;
-  add_times(device.timer.times(), stats_.stages);
-  add_times(device.timer.serial_times(), stats_.serial);
-  const std::vector<TimeSpan> spans = device.timer.spans();
-  stats_.spans.insert(stats_.spans.end(), spans.begin(), spans.end());
-  device.timer.clear();
-  stats_.device_bytes =
-      std::max(stats_.device_bytes, device.pool.peak_bytes() + state_.particles.device_bytes());
-  stats_.note = device.programs.note();
-  stats_.build_seconds += device.programs.build_seconds() - built_before;
-}
-
-// Without waiting for the frame that the device may be drawing.
-void Renderer::State::Rendering::end() {
-  state_.ended = number_;
-  const std::unique_lock turn(state_.of_device, std::try_to_lock);
-  if (turn) state_.particles.end_frame(number_);
-}
-
-void Renderer::State::Rendering::note_span(const char* what,
-                                           std::chrono::steady_clock::time_point begin) {
-  stats_.spans.push_back({what, false, begin, std::chrono::steady_clock::now()});
-}
-
-void Renderer::State::Rendering::note(const DrawCounts& counts) {
-  stats_.particles = counts.particles;
-  stats_.drawn_particles = counts.visible;
-  stats_.bad_particles = counts.bad;
-  stats_.tile_entries = counts.tile_entries;
-  stats_.blocks_left_out = counts.blocks_left_out;
-  stats_.windows = counts.windows;
-}
-
-void Renderer::State::Rendering::note_processes() {
-  if (!state_.ranks) return;
-  const std::vector<std::string> hosts = gather_texts(*state_.ranks, state_.ranks->host());
-  const std::vector<std::uint64_t> projected = gather_values(*state_.ranks, work_.particles);
-  const std::vector<std::uint64_t> composited = gather_values(*state_.ranks, work_.splats);
-  const std::vector<std::uint64_t> sent = gather_values(*state_.ranks, work_.sent_bytes);
-  const auto microseconds = static_cast<std::uint64_t>(1e6 * stats_.total_seconds);
-  const std::vector<std::uint64_t> times = gather_values(*state_.ranks, microseconds);
-  for (std::size_t r = 0; r < hosts.size(); ++r) {
-    stats_.processes.push_back(
-        {hosts[r], projected[r], composited[r], sent[r], 1e-6 * static_cast<double>(times[r])});
+  // A plan with what its parts that are to be tried turn out to need.
+  // Others may need more than these parts, of which more is asked for that.
+  FramePlan try_out(const FramePlan& plan) {
+    constexpr double part_of_promise = 0.25;
+    constexpr int edge_blocks = 1;
+    FramePlan tried = plan;
+    for (const Rectangle& crop : plan.tried_parts) {
+      Frame part = frame_;
+      part.crop = crop;
+      DrawnSplats splats;
+      const Image image = draw(part, tried, splats);
+      if (splats.counts.too_sharp > 0) break;
+      FramePlan stricter = tried;
+      stricter.shares.promise *= part_of_promise;
+      Certificate certificate;
+      if (is_first())
+        certificate = certify(splats.read.gathered(), image, part, stricter, edge_blocks);
+      share(certificate);
+      if (!certificate.keeps_promise())
+        tried = refine_plan(frame_, tried, with_all_octaves(certificate.needs));
+    }
+    tried.tried_parts.clear();
+    return tried;
   }
-}
 
-void Renderer::State::Rendering::share(Certificate& certificate) const {
-  if (!state_.ranks) return;
-  broadcast_value(*state_.ranks, certificate.error_of_promise);
-  broadcast_value(*state_.ranks, certificate.worst);
-  broadcast_value(*state_.ranks, certificate.worst_kept);
-  broadcast_value(*state_.ranks, certificate.needs);
-  broadcast_value(*state_.ranks, certificate.needs_extended);
-  broadcast_value(*state_.ranks, certificate.is_bound);
-  broadcast_value(*state_.ranks, certificate.blocks.columns);
-  broadcast_value(*state_.ranks, certificate.blocks.rows);
-  broadcast_values(*state_.ranks, certificate.blocks.errors);
-}
+  Certificate check(const Frame& frame, const FramePlan& plan, const DrawnSplats& splats,
+                    const Image& image) {
+    const auto start = std::chrono::steady_clock::now();
+    const double before = thread_seconds();
+    Certificate certificate;
+    if (is_first()) {
+      const CollectedSplats collected = splats.read.gathered();
+      certificate = plan.is_extended() ? certify_extended(collected, image, frame, plan)
+                                       : certify(collected, image, frame, plan);
+    }
+    share(certificate);
+    check_seconds_ += thread_seconds() - before;
+    note_span("check", start);
+    note_check(certificate, stats_.check);
+    return certificate;
+  }
 
-// All go on from the same picture: to its exposure, or to what is drawn next.
-void Renderer::State::Rendering::share(Image& image) const {
-  if (state_.ranks) broadcast_values(*state_.ranks, image.pixels);
+  // Draws until the promise is kept.
+  DrawnPicture draw_until_kept(const Frame& frame, const FramePlan& plan) {
+    FramePlan drawn = plan;
+    for (std::size_t drawings = 1;; ++drawings) {
+      DrawnSplats splats;
+      DrawnPicture picture;
+      picture.image = draw(frame, drawn, splats);
+      note(splats.counts);
+      if (splats.counts.too_sharp > 0) {
+        stats_.drawn_most_exactly = true;
+        drawn = extend_plan(frame, drawn);
+        continue;
+      }
+      picture.certificate = check(frame, drawn, splats, picture.image);
+      if (drawn.is_extended() || picture.certificate.keeps_promise()) return picture;
+      const bool in_slabs = drawn.slabs > 0;
+      const FramePlan of_parts = in_slabs ? in_order_plan(frame, drawn)
+                                          : next_plan(frame, drawn, picture.certificate, drawings);
+      const double pixels = pixels_of_part(frame, drawn, splats.counts);
+      if (mend(frame, drawn, of_parts, pixels, picture)) {
+        note(splats.counts);
+        note_check(picture.certificate, stats_.check);
+        return picture;
+      }
+      drawn = in_slabs ? next_plan(frame, drawn, picture.certificate, drawings) : of_parts;
+    }
+  }
+
+  // Draws those parts of a picture of `plan` again that do not keep the promise, by the plan
+  // `of_parts`, where that takes less than all of it.
+  bool mend(const Frame& frame, const FramePlan& plan, const FramePlan& of_parts,
+            double pixels_of_part, DrawnPicture& picture) {
+    // Drawing all of the picture again takes no longer than that: what fails is more crowded than
+    // the rest, which counts more where pixels of their own cost little.
+    const double largest_pixel_count = plan.needs_sort() ? 0.7 : 0.5;
+    const Image& image = picture.image;
+    Certificate& certificate = picture.certificate;
+    const std::vector<Rectangle> parts = failing_parts(certificate.blocks, plan.shares.promise,
+                                                       image.width, image.height, pixels_of_part);
+    double pixels = pixels_of_part * static_cast<double>(parts.size());
+    for (const Rectangle& part : parts)
+      pixels += static_cast<double>(part.width) * part.height;
+    if (parts.empty() || pixels > largest_pixel_count * image.width * image.height) return false;
+    FrameCheck check = std::move(stats_.check);
+    std::vector<ErrorParts> worst = {certificate.worst_kept};
+    for (const Rectangle& part : parts) {
+      Frame frame_of_part = frame;
+      frame_of_part.crop = {frame.crop.x + part.x, frame.crop.y + part.y, part.width, part.height};
+      stats_.check = {};
+      paste(draw_until_kept(frame_of_part, of_parts), part, picture);
+      worst.push_back(stats_.check.worst);
+    }
+    stats_.check = std::move(check);
+    const std::vector<float>& errors = certificate.blocks.errors;
+    certificate.error_of_promise =
+        static_cast<double>(*std::max_element(errors.begin(), errors.end())) / plan.shares.promise;
+    certificate.worst = worst_within(worst, certificate.error_of_promise);
+    return true;
+  }
+
+  Image draw(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
+    const auto asked = std::chrono::steady_clock::now();
+    const std::lock_guard turn(state_.of_device);
+    const auto start = std::chrono::steady_clock::now();
+    constexpr std::chrono::microseconds worth_telling(50);
+    if (start - asked > worth_telling) note_span("wait", asked);
+    try {
+      state_.particles.end_frame(state_.ended);
+      if (number_ == 0) number_ = state_.particles.begin_frame();
+      Image image = draw_on_device(frame, plan, splats);
+      note_span("draw", start);
+      return image;
+    } catch (...) {
+      state_.finish_quietly();
+      throw;
+    }
+  }
+
+  Image draw_on_device(const Frame& frame, const FramePlan& plan, DrawnSplats& splats) {
+    DeviceContext& device = state_.device;
+    if (plan.is_extended()) require_doubles(device);
+    const double built_before = device.programs.build_seconds();
+    device.pool.reset_peak();
+    std::optional<FrameRanks> of_frame;
+    if (state_.ranks) of_frame.emplace(FrameRanks{*state_.ranks, work_});
+    Pipeline pipeline(device, state_.particles, frame, plan, state_.progress,
+                      of_frame ? &*of_frame : nullptr);
+    Image image = pipeline.draw();
+    splats.counts = pipeline.counts();
+    if (of_frame) work_ = of_frame->work;
+    device.queue.finish();
+    const double before = thread_seconds();
+    if (splats.counts.too_sharp == 0 && is_first()) splats.read = pipeline.read_collected();
+    check_seconds_ += thread_seconds() - before;
+    take_account(built_before);
+    return image;
+  }
+
+  // Of what the device has done for the frame since the last time.
+  void take_account(double built_before) {
+    DeviceContext& device = state_.device;
+    add_times(device.timer.times(), stats_.stages);
+    add_times(device.timer.serial_times(), stats_.serial);
+    const std::vector<TimeSpan> spans = device.timer.spans();
+    stats_.spans.insert(stats_.spans.end(), spans.begin(), spans.end());
+    device.timer.clear();
+    stats_.device_bytes =
+        std::max(stats_.device_bytes, device.pool.peak_bytes() + state_.particles.device_bytes());
+    stats_.note = device.programs.note();
+    stats_.build_seconds += device.programs.build_seconds() - built_before;
+  }
+
+  // Without waiting for the frame that the device may be drawing.
+  void end() {
+    state_.ended = number_;
+    const std::unique_lock turn(state_.of_device, std::try_to_lock);
+    if (turn) state_.particles.end_frame(number_);
+  }
+
+  void note_span(const char* what, std::chrono::steady_clock::time_point begin) {
+    stats_.spans.push_back({what, false, begin, std::chrono::steady_clock::now()});
+  }
+
+  void note(const DrawCounts& counts) {
+    stats_.particles = counts.particles;
+    stats_.drawn_particles = counts.visible;
+    stats_.bad_particles = counts.bad;
+    stats_.tile_entries = counts.tile_entries;
+    stats_.blocks_left_out = counts.blocks_left_out;
+    stats_.windows = counts.windows;
+  }
+
+  void note_processes() {
+    if (!state_.ranks) return;
+    const std::vector<std::string> hosts = gather_texts(*state_.ranks, state_.ranks->host());
+    const std::vector<std::uint64_t> projected = gather_values(*state_.ranks, work_.particles);
+    const std::vector<std::uint64_t> composited = gather_values(*state_.ranks, work_.splats);
+    const std::vector<std::uint64_t> sent = gather_values(*state_.ranks, work_.sent_bytes);
+    const auto microseconds = static_cast<std::uint64_t>(1e6 * stats_.total_seconds);
+    const std::vector<std::uint64_t> times = gather_values(*state_.ranks, microseconds);
+    for (std::size_t r = 0; r < hosts.size(); ++r) {
+      stats_.processes.push_back(
+          {hosts[r], projected[r], composited[r], sent[r], 1e-6 * static_cast<double>(times[r])});
+    }
+  }
+
+  // What the first of several ranks knows becomes known to all.
+  void share(Certificate& certificate) const {
+    if (!state_.ranks) return;
+    broadcast_value(*state_.ranks, certificate.error_of_promise);
+    broadcast_value(*state_.ranks, certificate.worst);
+    broadcast_value(*state_.ranks, certificate.worst_kept);
+    broadcast_value(*state_.ranks, certificate.needs);
+    broadcast_value(*state_.ranks, certificate.needs_extended);
+    broadcast_value(*state_.ranks, certificate.is_bound);
+    broadcast_value(*state_.ranks, certificate.blocks.columns);
+    broadcast_value(*state_.ranks, certificate.blocks.rows);
+    broadcast_values(*state_.ranks, certificate.blocks.errors);
+  }
+
+  // All go on from the same picture: to its exposure, or to what is drawn next.
+  void share(Image& image) const {
+    if (state_.ranks) broadcast_values(*state_.ranks, image.pixels);
+  }
+
+  State& state_;
+  const Frame& frame_;
+  RenderStats& stats_;
+  std::uint64_t number_ = 0;  // as particles are kept by; 0: nothing has been drawn
+  double check_seconds_ = 0;  // of the frame, by the thread that draws
+  RankWork work_;             // this one's, for the frame
+};
+
+Image Renderer::State::render(const Frame& frame, const FramePlan* plan, RenderStats& of_frame) {
+  require_runtime();
+  const ThreadPool::Scope scope(threads);
+  Rendering rendering(*this, frame, of_frame);
+  const FramePlan drawn = plan != nullptr ? *plan : rendering.first_plan();
+  try {
+    return rendering.render(drawn);
+  } catch (const compute::opencl_error& error) {
+    throw DeviceError("device " + device.device.name() + " failed: " + error.error_string() +
+                      "; draw fewer particles or a smaller picture, or choose another device");
+  }
 }
 
 Renderer::Renderer(const RendererOptions& options) {
@@ -442,26 +420,19 @@ Renderer& Renderer::operator=(Renderer&& other) noexcept {
 }
 
 Image Renderer::render(const Frame& frame) {
-  return render(frame, state_->stats);
+  return state_->render(frame, nullptr, state_->stats);
 }
 
 Image Renderer::render(const Frame& frame, const FramePlan& plan) {
-  return render(frame, plan, state_->stats);
+  return state_->render(frame, &plan, state_->stats);
 }
 
 Image Renderer::render(const Frame& frame, RenderStats& stats) {
-  require_runtime();
-  const ThreadPool::Scope scope(state_->threads);
-  State::Rendering rendering(*state_, frame, stats);
-  const FramePlan plan = rendering.first_plan();
-  return with_device_errors(state_->device, [&] { return rendering.render(plan); });
+  return state_->render(frame, nullptr, stats);
 }
 
 Image Renderer::render(const Frame& frame, const FramePlan& plan, RenderStats& stats) {
-  require_runtime();
-  const ThreadPool::Scope scope(state_->threads);
-  State::Rendering rendering(*state_, frame, stats);
-  return with_device_errors(state_->device, [&] { return rendering.render(plan); });
+  return state_->render(frame, &plan, stats);
 }
 
 const RenderStats& Renderer::stats() const {

@@ -9,11 +9,16 @@
 
 namespace splotchcl {
 
+// Of all columns that are arrays.
+std::uint64_t particle_bytes(const Frame& frame);
+
 // What drawing a frame will take, found from its plan and a sample of its particles.
 struct FrameEstimate {
   std::string device;
   int compute_units = 0;
-  std::uint64_t device_bytes = 0;    // buffers of the plan's chunks, lists and grids
+  // The largest total of the buffers that drawing takes at one time: what RenderStats::device_bytes
+  // will be, but for some kilobytes and the parts of lists that are cut.
+  std::uint64_t device_bytes = 0;
   std::uint64_t particle_bytes = 0;  // the particles' columns, mapped from the file or in memory
   double splats = 0, tile_entries = 0;
   std::uint64_t memory_limit = 0;  // of the device, bytes
@@ -31,8 +36,5 @@ FrameEstimate estimate_frame(const Frame& frame, const FramePlan& plan, const st
 // Lines for --explain. `drawings` are how often such a frame is drawn: views of a picture, frames
 // of a film.
 std::string explain(const FrameEstimate& estimate, int drawings);
-
-// "0.12 s", "3.4 min", "2.1 h".
-std::string rounded_duration(double seconds);
 
 }  // namespace splotchcl

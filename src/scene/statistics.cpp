@@ -8,7 +8,7 @@
 #include "scene/constants.h"
 #include "scene/hash.h"
 #include "scene/particle_columns.h"
-#include "scene/plan/cloud_in_picture.h"
+#include "scene/plan/cloud_sample.h"
 #include "scene/scalar_map.h"
 
 namespace splotchcl {

@@ -8,10 +8,11 @@
 
 #include "splotchcl/frame.h"
 
+namespace splotchcl {
+
 // Clouds around the camera (Frame::through_clouds): what is in front of the camera along each ray,
 // where a splat would show a cloud's whole column or none. docs/projections.md has the formulas.
 // The reference renderer has a copy of its own on purpose (src/reference/render.cpp).
-namespace splotchcl {
 
 // Distances from the camera in sigma. Up to the first a cloud is what a ray finds, from the second
 // on it is a splat.
@@ -46,5 +47,17 @@ double widest_angle(const Frame& frame);
 
 // No more than this column, of a central one of 1, is in any pixel of the picture.
 double largest_column_around(const CloudAround& cloud, const Frame& frame, double widest_angle);
+
+// No detail of clouds [first, end) is narrower in the picture than exp(-x^2 / n^2) with this n, in
+// pixels. Seen from u sigma away a cloud is 1 / u wide in radians, from within it about 1. Less
+// than a pixel where a kernel that is cut ends.
+double narrowest_detail(const std::vector<CloudAround>& clouds, std::size_t first, std::size_t end,
+                        const Frame& frame);
+
+// Of clouds [first, end) stretches that follow each other, by their ends: where a cut kernel ends
+// in the picture every pixel has to be worked out, and the clouds before and behind it need not be
+// worked out with it. A single stretch where no kernel ends in the picture.
+std::vector<std::size_t> ends_of_stretches(const std::vector<CloudAround>& clouds,
+                                           std::size_t first, std::size_t end, const Frame& frame);
 
 }  // namespace splotchcl

@@ -84,8 +84,6 @@ class SmoothPicture::Nodes {
       for (std::size_t k = 0; k < taps; ++k)
         weights_[k].push_back(of_phase[k]);
     }
-    for (std::size_t k = 0; k < taps; ++k)
-      single_weights_[k].assign(weights_[k].begin(), weights_[k].end());
   }
 
   // Of nodes that are twice as far apart those that are known are taken.
@@ -106,22 +104,11 @@ class SmoothPicture::Nodes {
     return *std::max_element(largest.begin(), largest.end());
   }
 
-  double largest() const {
-    constexpr double along_columns = 1.5;  // of the sizes of weights
-    double largest = 0;
-    for (const double value : values_)
-      largest = std::max(largest, std::abs(value));
-    return along_columns * largest;
-  }
-
-  // A row of `part`: of each channel its pixels.
-  template <class Number>
-  void row(const Rectangle& part, int y, std::vector<Number>& channels) const {
+  void row(const Rectangle& part, int y, std::vector<double>& channels) const {
     const auto width = static_cast<std::size_t>(part.width);
     channels.resize(channels_ * width);
-    std::vector<double> exact(static_cast<std::size_t>(x_.count) * channels_);
-    interpolate_row(part.y + y, exact);
-    const std::vector<Number> between(exact.begin(), exact.end());
+    std::vector<double> between(static_cast<std::size_t>(x_.count) * channels_);
+    interpolate_row(part.y + y, between);
     // Pixels between the same two nodes at a time.
     for (int x = 0; x < part.width;) {
       const int phase = x_.phase(part.x + x);
@@ -187,34 +174,26 @@ class SmoothPicture::Nodes {
     }
   }
 
-  const double* weights_from(std::size_t tap, int phase, double) const {
-    return weights_[tap].data() + phase;
-  }
-  const float* weights_from(std::size_t tap, int phase, float) const {
-    return single_weights_[tap].data() + phase;
-  }
-
   // The channels of `count` pixels from this phase on, `plane` numbers apart.
-  template <class Number>
-  void interpolate_between(const std::vector<Number>& row, int base, int phase, int count,
-                           Number* pixels, std::size_t plane) const {
-    const Number* nodes = row.data() + static_cast<std::size_t>(base) * channels_;
+  void interpolate_between(const std::vector<double>& row, int base, int phase, int count,
+                           double* pixels, std::size_t plane) const {
+    const double* nodes = row.data() + static_cast<std::size_t>(base) * channels_;
     if (x_.spacing == 1) {
       for (std::size_t c = 0; c < channels_; ++c)
         pixels[c * plane] = nodes[c];
       return;
     }
-    std::array<const Number*, taps> weights;
+    std::array<const double*, taps> weights;
     for (std::size_t k = 0; k < taps; ++k)
-      weights[k] = weights_from(k, phase, Number());
+      weights[k] = weights_[k].data() + phase;
     for (std::size_t c = 0; c < channels_; ++c) {
-      std::array<Number, taps> of_taps;
+      std::array<double, taps> of_taps;
       for (std::size_t k = 0; k < taps; ++k)
         of_taps[k] = nodes[k * channels_ + c];
-      Number* const of_channel = pixels + c * plane;
+      double* const of_channel = pixels + c * plane;
       // All taps of a pixel at once: sums stay in registers.
       for (int i = 0; i < count; ++i) {
-        Number sum = weights[0][i] * of_taps[0];
+        double sum = weights[0][i] * of_taps[0];
         for (std::size_t k = 1; k < taps; ++k)
           sum += weights[k][i] * of_taps[k];
         of_channel[i] = sum;
@@ -243,7 +222,6 @@ class SmoothPicture::Nodes {
   std::size_t channels_;
   std::vector<double> values_;
   std::array<std::vector<double>, taps> weights_;  // of each tap, phase by phase
-  std::array<std::vector<float>, taps> single_weights_;
 };
 
 SmoothPicture::SmoothPicture(const SmoothPictureSettings& settings, const PixelsFunction& pixels)
@@ -269,16 +247,8 @@ SmoothPicture::SmoothPicture(SmoothPicture&&) noexcept = default;
 SmoothPicture& SmoothPicture::operator=(SmoothPicture&&) noexcept = default;
 SmoothPicture::~SmoothPicture() = default;
 
-double SmoothPicture::largest() const {
-  return nodes_->largest();
-}
-
-template <class Number>
-void SmoothPicture::row(int y, std::vector<Number>& channels) const {
+void SmoothPicture::row(int y, std::vector<double>& channels) const {
   nodes_->row(crop_, y, channels);
 }
-
-template void SmoothPicture::row(int, std::vector<float>&) const;
-template void SmoothPicture::row(int, std::vector<double>&) const;
 
 }  // namespace splotchcl

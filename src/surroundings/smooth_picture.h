@@ -38,18 +38,9 @@ class SmoothPicture {
   SmoothPicture& operator=(SmoothPicture&&) noexcept;
   ~SmoothPicture();
 
-  // What rows of float round off at most, in parts of the largest value: of each weight and value
-  // one rounding, of their products another, and seven of the sum. Weights come to 1.5, signs
-  // aside.
-  static constexpr double single_rounding = 1.5 * 10 * 0x1p-24;
-
-  // The largest value of any channel at a node or along a row of them.
-  double largest() const;
-
-  // Row y of the crop: for each channel its `crop.width` pixels, of float or double. Several
-  // threads may ask.
-  template <class Number>
-  void row(int y, std::vector<Number>& channels) const;
+  // Row y of the crop: for each channel its `crop.width` pixels. Several threads may
+  // ask.
+  void row(int y, std::vector<double>& channels) const;
 
  private:
   class Nodes;

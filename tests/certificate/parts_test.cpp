@@ -1,6 +1,5 @@
-#include "certificate/block_sums.h"
+#include "certificate/cells.h"
 #include "certificate/color_light.h"
-#include "certificate/crowd_cells.h"
 #include "reference/frames.h"
 #include "testing.h"
 

@@ -124,7 +124,7 @@ TEST_P(Bin, CountsTheEntriesOfAllLists) {
 // Segments cut every list into pieces in order; only lists of several pieces have partial
 // layers, each its own.
 TEST_P(Bin, SegmentsCoverEveryListInOrder) {
-  choose_shape(device().traits, GetParam().rows);
+  device().traits.choose_shape(GetParam().rows);
   device().traits.segment_length = 16;
   Stages stages(device(), clouds(), GetParam().rows);
   const TileLists lists = stages.bin();

@@ -93,7 +93,7 @@ TEST_P(CoarseGrids, LeaveOutSplatsThatShowNowhereInThePicture) {
   const auto drawn_with_distance_beside_picture = [](double distance, double column) {
     const Cloud cloud = {-0.5 * width - distance, 0, 10, sigma, column};
     DeviceContext device(choose_device(""));
-    choose_shape(device.traits, GetParam() == CompositeShape::rows);
+    device.traits.choose_shape(GetParam() == CompositeShape::rows);
     const Frame frame = frame_of(width, height, {component_of({cloud}, two_colors())});
     return draw_with_plan(device, frame, make_plan(frame)).counts.visible;
   };

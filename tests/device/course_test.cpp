@@ -107,7 +107,7 @@ void draw(DeviceContext& device, ParticleStore& particles, const Frame& frame) {
 // go.
 std::uint64_t buffers_made_by_third_frame(const Frame& frame, bool rows) {
   DeviceContext device(choose_device(""));
-  choose_shape(device.traits, rows);
+  device.traits.choose_shape(rows);
   ParticleStore particles(device);
   draw(device, particles, frame);
   draw(device, particles, frame);

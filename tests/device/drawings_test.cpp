@@ -131,16 +131,6 @@ TEST_F(Drawings, OfCutKernelsNeedNoSecondOne) {
     EXPECT_EQ(drawings_of(faint_discs_in_one_place(tolerance)), 1U) << tolerance;
 }
 
-TEST_F(Drawings, InOrderAreOneWhereAllEndsAreKnownBefore) {
-  for (const double tolerance : {1e-3, 1e-5}) {
-    const Frame frame = cluster_in_the_dark(tolerance);
-    EXPECT_EQ(drawings_of(frame), 1U) << tolerance;
-    renderer().render(frame, make_plan(frame));
-    EXPECT_GT(renderer().stats().check.errors_of_promise.size(), 1U)
-        << "a plan that does not know them, " << tolerance;
-  }
-}
-
 // By one renderer in several threads, of frames that are drawn again.
 TEST_F(Drawings, AreTheSameWhereThoseOfOtherFramesComeBetween) {
   std::vector<Frame> frames;

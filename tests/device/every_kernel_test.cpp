@@ -188,7 +188,7 @@ TEST_P(EveryKernel, LooksInAllDirectionsAtToleranceZero) {
 TEST_P(EveryKernel, JoinsSegments) {
   const std::vector<Cloud> grains(100, Cloud{0.2, 0.3, 1, 0.1, 0.01});
   DeviceContext device(choose_device(""));
-  choose_shape(device.traits, GetParam() == CompositeShape::rows);
+  device.traits.choose_shape(GetParam() == CompositeShape::rows);
   device.traits.segment_length = 30;
   for (const double tolerance : {1e-3, 0.0}) {
     Frame frame = frame_of(3, 2, {component_of(grains, two_colors())});
@@ -202,7 +202,7 @@ TEST_P(EveryKernel, JoinsSegments) {
 // Room for four splats at a time, of which each window leaves some to the next one.
 TEST_P(EveryKernel, DrawsInWindows) {
   DeviceContext device(choose_device(""));
-  choose_shape(device.traits, GetParam() == CompositeShape::rows);
+  device.traits.choose_shape(GetParam() == CompositeShape::rows);
   device.traits.sorted_chunk = 5;
   for (const double tolerance : {1e-3, 0.0}) {
     Frame frame = small_frame(LightPlan::ordered, 12);

@@ -1,9 +1,9 @@
 // The shape for GPUs: how it uses the device, and its own pieces.
 #include "device/cases.h"
-#include "device/opencl/native_exp2.h"
+#include "device/opencl/device_context.h"
 #include "device/pictures.h"
 #include "device/stages.h"
-#include "device/stages/group_binner.h"
+#include "device/stages/binner.h"
 #include "testing.h"
 
 namespace splotchcl::test {
@@ -55,7 +55,7 @@ TEST_F(GroupShape, DrawsTheSamePictureInBandsOfTilesBitForBit) {
     const Frame frame = clouds(plan, 1e-3);
     const FramePlan frame_plan = make_plan(frame);
     ParticleStore particles(device());
-    choose_shape(device().traits, false);
+    device().traits.choose_shape(false);
     const DeviceTraits traits = device().traits;
     // One tile may have all splats of a chunk, so that a band holds as many at least.
     device().traits.chunk_blocks = 2;
@@ -78,7 +78,7 @@ TEST_F(GroupShape, DrawsTheSamePictureInBandsOfTilesBitForBit) {
 std::uint32_t chunk_length_of_gpu(std::uint64_t memory) {
   DeviceTraits traits;
   traits.gpu_memory = memory;
-  choose_shape(traits, false);
+  traits.choose_shape(false);
   return traits.chunk_length();
 }
 
@@ -91,7 +91,7 @@ TEST(ChunksOfGpus, FollowFromTheirMemoryAlone) {
 
 // Boxes are made around blocks, and left out by the number of a group.
 TEST_F(GroupShape, RefusesBlocksOfOtherSizesThanItsGroups) {
-  choose_shape(device().traits, false);
+  device().traits.choose_shape(false);
   const DeviceTraits traits = device().traits;
   device().traits.project_block = GROUP_ITEMS / 2;
   EXPECT_THROW(draw_once(device(), clouds(LightPlan::emission, 1e-3), CompositeShape::groups),
@@ -110,7 +110,7 @@ TEST_F(GroupShape, DrawsTheSameBitsAgain) {
 // GPUs take their own 2^t where it serves, which this device's does.
 TEST_F(GroupShape, HoldsItsToleranceWithTheDevicesOwnPowersOfTwo) {
   ASSERT_TRUE(native_exp2_serves(device())) << error_of_native_exp2(device());
-  choose_shape(device().traits, false);
+  device().traits.choose_shape(false);
   const DeviceTraits traits = device().traits;
   device().traits.native_exp2 = true;
   for (const LightPlan plan : {LightPlan::emission, LightPlan::ordered}) {
@@ -132,7 +132,7 @@ TEST_F(GroupShape, HoldsItsToleranceWithTheDevicesOwnPowersOfTwo) {
 // Layers of a tile whose list is cut differ by roundings from those of a whole one.
 TEST_F(GroupShape, JoinsSegmentsToTheSamePicture) {
   const Frame frame = clouds(LightPlan::ordered, 1e-3);
-  choose_shape(device().traits, false);
+  device().traits.choose_shape(false);
   const DeviceTraits traits = device().traits;
   const Image whole = draw_once(device(), frame, CompositeShape::groups);
   device().traits.segment_length = 33;
@@ -151,7 +151,7 @@ TEST_F(GroupShape, CollectsWhatRowsCollect) {
     for (const std::uint32_t segment : {0u, 40u}) {
       for (const bool rows : {true, false}) {
         ParticleStore particles(device());
-        choose_shape(device().traits, rows);
+        device().traits.choose_shape(rows);
         const DeviceTraits traits = device().traits;
         if (segment > 0) device().traits.segment_length = segment;
         Pipeline pipeline(device(), particles, frame, frame_plan);

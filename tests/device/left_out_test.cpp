@@ -49,7 +49,7 @@ Frame scene(bool is_ordered) {
 class KnownBoxes : public StageTest, public testing::WithParamInterface<std::tuple<bool, bool>> {
  protected:
   void SetUp() override {
-    choose_shape(device().traits, std::get<0>(GetParam()));
+    device().traits.choose_shape(std::get<0>(GetParam()));
     whole_ = device().traits;
     device().traits.project_block = std::get<0>(GetParam()) ? block_particles : GROUP_ITEMS;
     device().traits.chunk_blocks = 8;

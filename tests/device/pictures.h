@@ -58,7 +58,7 @@ inline DrawnOnce draw_with_plan(DeviceContext& device, const Frame& frame, const
 
 // Drawn with the frame's first plan.
 inline Image draw_once(DeviceContext& device, const Frame& frame, CompositeShape shape) {
-  choose_shape(device.traits, shape == CompositeShape::rows);
+  device.traits.choose_shape(shape == CompositeShape::rows);
   return draw_with_plan(device, frame, make_plan(frame)).image;
 }
 

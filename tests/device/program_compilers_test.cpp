@@ -3,9 +3,8 @@
 #include <mutex>
 #include <thread>
 
-#include "device/opencl/program_build.h"
-#include "device/opencl/quirks.h"
-#include "device/opencl/shared_work.h"
+#include "device/opencl/device_traits.h"
+#include "device/opencl/program_cache.h"
 #include "device/pictures.h"
 #include "splotchcl/program_compiler.h"
 #include "testing.h"

@@ -1,9 +1,9 @@
 // Programs that declare the language's functions themselves (kernels/common/builtins.h).
 #include "device/opencl/program_text.h"
 
+#include "device/opencl/device_traits.h"
 #include "device/opencl/launch.h"
-#include "device/opencl/program_build.h"
-#include "device/opencl/quirks.h"
+#include "device/opencl/program_cache.h"
 #include "device/stages.h"
 #include "device/stages/stage_programs.h"
 #include "testing.h"
@@ -103,7 +103,7 @@ TEST_F(ShortTexts, DeclareAllThatKernelsCallAndCompileWithoutWarnings) {
   std::set<std::string> compiled;
   for (const bool rows : {true, false}) {
     DeviceTraits traits = device().traits;
-    choose_shape(traits, rows);
+    traits.choose_shape(rows);
     for (const Frame& frame : frames()) {
       const FramePlan plan = make_plan(frame);
       std::vector<ProgramSource> programs;

@@ -1,4 +1,4 @@
-#include "device/failing_parts.h"
+#include "device/drawings.h"
 #include "device/frame/particle_store.h"
 #include "device/pictures.h"
 #include "device/pipeline.h"

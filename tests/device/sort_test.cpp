@@ -1,5 +1,4 @@
 #include "device/stages.h"
-#include "device/stages/group_scan.h"
 #include "device/stages/sorter.h"
 #include "testing.h"
 
@@ -30,14 +29,14 @@ Keys stable_order_below(std::uint32_t end, const Keys& keys) {
 // In both shapes.
 class Sort : public StageTest, public testing::WithParamInterface<bool> {
  protected:
-  void SetUp() override { choose_shape(device().traits, GetParam()); }
+  void SetUp() override { device().traits.choose_shape(GetParam()); }
 
   static Keys device_order(const Keys& keys) {
     const auto count = static_cast<std::uint32_t>(keys.size());
     Keys order(keys.size());
     std::iota(order.begin(), order.end(), 0u);
     const Buffer<std::uint32_t> sorted = Sorter(device()).sort(
-        device().pool.upload(keys, "keys"), device().pool.upload(order, "order"), count);
+        device().pool.upload(keys, "keys"), {}, device().pool.upload(order, "order"), count);
     return device().pool.download(sorted, count);
   }
 };

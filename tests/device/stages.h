@@ -64,7 +64,7 @@ class Stages {
   // GPU.
   Stages(DeviceContext& device, const Frame& frame, bool rows = true)
       : frame_(frame), plan_(make_plan(frame_)), device_(device), particles_(device) {
-    choose_shape(device.traits, rows);
+    device.traits.choose_shape(rows);
     pipeline_ = std::make_unique<Pipeline>(device, particles_, frame_, plan_);
   }
   // Kernels may still read the frame's columns.

@@ -2,7 +2,7 @@
 // same bits as in one piece.
 #include "device/cloud_frames.h"
 #include "device/counted_column.h"
-#include "device/frame/splat_capacity.h"
+#include "device/frame/picture_layout.h"
 #include "device/pictures.h"
 #include "device/stages.h"
 #include "frames/random_frames.h"
@@ -31,7 +31,7 @@ class Windows : public StageTest, public testing::WithParamInterface<bool> {
  protected:
   // Few splats of a chunk and few particles of a block, so that small scenes have many.
   void SetUp() override {
-    choose_shape(device().traits, GetParam());
+    device().traits.choose_shape(GetParam());
     whole_ = device().traits;
     memory_ = device().memory;
     device().traits.project_block = GetParam() ? 16 : GROUP_ITEMS;

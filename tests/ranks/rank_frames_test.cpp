@@ -77,7 +77,7 @@ class RankFrames : public testing::TestWithParam<bool> {
  protected:
   // Few splats of a chunk and few particles of a block, so that small scenes have many.
   void set_sizes(DeviceContext& device) const {
-    choose_shape(device.traits, GetParam());
+    device.traits.choose_shape(GetParam());
     device.traits.project_block = GetParam() ? 16 : GROUP_ITEMS;
     device.traits.chunk_blocks = GetParam() ? 4 : 1;
     device.traits.leaf_chunks = 1;

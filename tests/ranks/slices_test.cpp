@@ -1,5 +1,5 @@
 // Slices by keys, and the clouds of each.
-#include "device/stages/cloud_layers.h"
+#include "device/stages/clouds_in_lists.h"
 #include "device/walk/key_slices.h"
 #include "testing.h"
 

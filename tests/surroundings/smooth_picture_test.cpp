@@ -5,9 +5,8 @@
 
 #include "frames/random_frames.h"
 #include "scene/projection.h"
-#include "surroundings/clouds_in_blocks.h"
+#include "surroundings/cloud_around.h"
 #include "surroundings/columns_around.h"
-#include "surroundings/narrowest_detail.h"
 #include "testing.h"
 
 namespace splotchcl::test {
@@ -104,26 +103,6 @@ TEST(SmoothPicture, OfACropHasTheBitsOfTheWholeOne) {
     for (std::size_t x = 0; x < 90; ++x)
       ASSERT_EQ(crop[y * 90 + x], whole[(y + 11) * 200 + x + 37]);
   }
-}
-
-TEST(SmoothPicture, InSinglePrecisionRoundsOffNoMoreThanItSays) {
-  SmoothPictureSettings settings = settings_of(200, 120, 1e-3);
-  settings.narrowest = 40;
-  const SmoothPicture picture(settings, one_by_one([](int x, int y, int, double* value) {
-                                *value = 1000 * gaussian(x, y, 40) + 1;
-                              }));
-  std::vector<double> exact;
-  std::vector<float> rounded;
-  double largest_error = 0;
-  for (int y = 0; y < 120; ++y) {
-    picture.row(y, exact);
-    picture.row(y, rounded);
-    for (std::size_t x = 0; x < 200; ++x)
-      largest_error = std::max(largest_error, std::abs(static_cast<double>(rounded[x]) - exact[x]));
-  }
-  EXPECT_GE(picture.largest(), 1000);
-  EXPECT_LE(largest_error, SmoothPicture::single_rounding * picture.largest());
-  EXPECT_GT(largest_error, 0);
 }
 
 // Clouds around the camera, found where they show.

@@ -6,7 +6,6 @@
 #include "scene/ceil_divide.h"
 
 namespace splotchcl {
-
 namespace {
 
 std::vector<SplatChunk> cut(std::uint64_t count, std::uint32_t length) {

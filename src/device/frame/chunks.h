@@ -23,7 +23,6 @@ struct ParticleChunk {
 // How long the chunks of a component of `count` particles are, but the last: as few as are no
 // longer than a chunk may be, of whole blocks.
 std::uint64_t particles_per_chunk(std::uint64_t count, const DeviceTraits& traits);
-// The chunks of all components.
 std::vector<ParticleChunk> particle_chunks(const Frame& frame, const DeviceTraits& traits);
 
 // A chunk, and which of its blocks of DeviceTraits::project_block particles are looked through.
@@ -31,7 +30,6 @@ struct ChunkBlocks {
   ParticleChunk chunk;
   std::vector<std::uint32_t> blocks;
 };
-// All blocks of the chunks.
 std::vector<ChunkBlocks> all_blocks(const std::vector<ParticleChunk>& chunks,
                                     const DeviceTraits& traits);
 
@@ -59,5 +57,27 @@ std::vector<SplatChunk> splat_chunks(std::uint64_t count, int slabs, const Devic
 // Entries that lists of a band of the picture have room for. One tile may have all splats of a
 // chunk.
 std::uint64_t entry_capacity(const FramePlan& plan, const DeviceTraits& traits);
+
+// Where the splats of an ordered frame do not fit into memory together, they are drawn slice by
+// slice of their sort keys, nearest first (docs/large.md). Keys have 48 bits.
+constexpr int bits_of_key = 48;
+constexpr std::uint64_t end_of_keys = std::uint64_t{1} << bits_of_key;
+// The bits of a key that number its bin.
+constexpr int bits_of_key_bin = 16;
+// Of the bins that hold all keys.
+constexpr int shift_of_all_keys = bits_of_key - bits_of_key_bin;
+
+// Splats whose keys lie in [first, end).
+struct KeyWindow {
+  std::uint64_t first = 0, end = end_of_keys;
+  std::uint64_t splats = 0;
+};
+
+// How many splats each of 2^16 bins of keys has: key >> shift, of the keys in a window.
+struct CountedKeys {
+  KeyWindow window;
+  int shift = shift_of_all_keys;
+  std::vector<std::uint64_t> bins;
+};
 
 }  // namespace splotchcl

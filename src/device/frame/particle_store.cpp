@@ -6,14 +6,75 @@
 #include <string>
 #include <utility>
 
-#include "device/frame/column_interpolator.h"
+#include "device/frame/shared.h"
+#include "device/frame/variant.h"
+#include "device/opencl/launch.h"
+#include "scene/ceil_divide.h"
 #include "scene/memory_advice.h"
 #include "scene/particle_columns.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
-
 namespace {
+
+// What the device has of the two snapshots: of the first in its own order, of the second as
+// order_second_on_device() puts it. Strides are 0 where one value serves all, or none.
+struct SnapshotColumns {
+  compute::buffer first, second, first_velocity, second_velocity, place_in_second;
+  int first_stride = 0, second_stride = 0, first_velocity_stride = 0, second_velocity_stride = 0;
+};
+
+void copy(const float (&from)[3], float (&to)[3]) {
+  std::copy(std::begin(from), std::end(from), std::begin(to));
+}
+
+shared::InterpolateParameters parameters_of(const DeviceContext& device, const IdMatch& match,
+                                            int values_per_particle) {
+  shared::InterpolateParameters p{};
+  p.in_first = static_cast<unsigned>(match.place_in_second.size());
+  p.particles = static_cast<unsigned>(match.particles());
+  p.particles_of_item = device.traits.interpolate_block;
+  p.width = static_cast<unsigned>(values_per_particle);
+  return p;
+}
+
+shared::PathParameters parameters_of(const PathNumbers& path, const SnapshotColumns& snapshots) {
+  shared::PathParameters p{};
+  copy(path.shift_high, p.shift_high);
+  copy(path.shift_low, p.shift_low);
+  p.size_high = path.size_high;
+  p.size_low = path.size_low;
+  p.inverse_size = path.inverse_size;
+  copy(path.lower, p.lower);
+  copy(path.upper, p.upper);
+  p.first_rate = path.first_rate;
+  p.second_rate = path.second_rate;
+  p.of_way = path.of_way;
+  p.of_first_tangent = path.of_first_tangent;
+  p.of_second_tangent = path.of_second_tangent;
+  p.from_first = path.from_first;
+  p.from_second = path.from_second;
+  p.is_periodic = path.is_periodic;
+  p.is_straight = path.is_straight;
+  p.first_velocity_stride = snapshots.first_velocity_stride;
+  p.second_velocity_stride = snapshots.second_velocity_stride;
+  return p;
+}
+
+Launch launch_of(DeviceContext& device, const char* kernel) {
+  const Program program = device.programs.get(
+      program_source("kernels/interpolate/interpolate.cl", device.traits.lanes()));
+  return Launch(device, "interpolate", program.create_kernel(kernel));
+}
+
+void run(Launch& launch, const shared::InterpolateParameters& p) {
+  const std::size_t items = ceil_divide(p.particles, p.particles_of_item);
+  if (p.particles_of_item > 1) {
+    launch.run_items(items);
+  } else {
+    launch.run_grid(items, 1, 1);
+  }
+}
 
 // Values of particles [first, end) in a column of `count` of them.
 void read_ahead_of(const Column& column, std::size_t count, std::uint64_t first,
@@ -22,6 +83,38 @@ void read_ahead_of(const Column& column, std::size_t count, std::uint64_t first,
   const std::size_t width = column.size() / count;
   read_ahead(column, width * static_cast<std::size_t>(first),
              width * static_cast<std::size_t>(end));
+}
+
+// A column of the second snapshot in the order of the particles between the two. Does not wait.
+void order_second_on_device(DeviceContext& device, const IdMatch& match, int values_per_particle,
+                            const compute::buffer& second, const compute::buffer& place_in_second,
+                            const compute::buffer& appearing, const compute::buffer& ordered) {
+  const shared::InterpolateParameters p = parameters_of(device, match, values_per_particle);
+  Launch launch = launch_of(device, "order_second");
+  launch.value(p).arg(second).arg(place_in_second).arg(appearing).arg(ordered);
+  run(launch, p);
+}
+
+// Makes a column between two snapshots on the device, to the bits of interpolate(): the stage
+// `interpolate`. Does not wait.
+void interpolate_on_device(DeviceContext& device, const ColumnBetween& column,
+                           const SnapshotColumns& snapshots, const compute::buffer& values) {
+  shared::InterpolateParameters p =
+      parameters_of(device, *column.match, column.values_per_particle);
+  p.first_stride = snapshots.first_stride;
+  p.second_stride = snapshots.second_stride;
+  p.logarithmic = column.kind == ColumnBetween::Kind::logarithmic;
+  p.fraction = column.fraction;
+  p.vanishing = column.fades ? column.vanishing : 1.0F;
+  p.appearing = column.fades ? column.appearing : 1.0F;
+  const bool is_position = column.kind == ColumnBetween::Kind::position;
+  Launch launch = launch_of(device, is_position ? "interpolate_positions" : "interpolate_values");
+  launch.value(p);
+  if (is_position) launch.value(parameters_of(column.path, snapshots));
+  launch.arg(snapshots.first).arg(snapshots.second);
+  if (is_position) launch.arg(snapshots.first_velocity).arg(snapshots.second_velocity);
+  launch.arg(snapshots.place_in_second).arg(values);
+  run(launch, p);
 }
 
 }  // namespace
@@ -322,6 +415,25 @@ void ParticleStore::end_frame(std::uint64_t number) {
     device_bytes_ -= entry->second.bytes;
     entry = entries_.erase(entry);
   }
+}
+
+void set_strides(const ParticleBuffers& particles, shared::ProjectLaunch& launch) {
+  launch.smoothing_length_stride = particles.smoothing_length_stride;
+  launch.weight_stride = particles.weight_stride;
+  launch.color_stride = particles.color_stride;
+  launch.intensity_stride = particles.intensity_stride;
+  launch.sort_stride = particles.sort_stride;
+  launch.own_color_stride = particles.own_color_stride;
+}
+
+Launch& pass_columns(Launch& launch, const ParticleBuffers& particles) {
+  return launch.arg(particles.position)
+      .arg(particles.smoothing_length)
+      .arg(particles.weight)
+      .arg(particles.color)
+      .arg(particles.intensity)
+      .arg(particles.sort_field)
+      .arg(particles.own_color);
 }
 
 }  // namespace splotchcl

@@ -9,8 +9,9 @@
 #include "between/interpolation.h"
 #include "device/frame/block_boxes.h"
 #include "device/frame/chunks.h"
-#include "device/frame/view_bounds.h"
+#include "device/frame/shared.h"
 #include "device/opencl/device_context.h"
+#include "device/opencl/launch.h"
 #include "splotchcl/particles.h"
 
 namespace splotchcl {
@@ -28,10 +29,9 @@ struct ParticleBuffers {
 
 // Keeps columns on the device from frame to frame: a second frame of data that stay moves nothing,
 // one of arrays that may have changed writes them anew. A column is known by its memory, which it
-// keeps alive. Columns between two snapshots are
-// made on the device from theirs, which stay as long as frames between them are drawn. Columns that
-// one buffer of the device does not hold are there in pieces, and those whose values are made as
-// they are wanted in chunks, one at a time.
+// keeps alive. Columns between two snapshots are made on the device from theirs, which stay as long
+// as frames between them are drawn. Columns that one buffer of the device does not hold are there
+// in pieces, and those whose values are made as they are wanted in chunks, one at a time.
 class ParticleStore {
  public:
   // `columns_stay` as in RendererOptions.
@@ -111,5 +111,11 @@ class ParticleStore {
   std::uint64_t frame_ = 0;
   std::uint64_t uses_ = 0;
 };
+
+// What kernels that read columns of particles take (kernels/project/load.cl): the strides, among
+// the parameters, and the buffers, from positions to sort fields. The particles' own colors are an
+// argument of their own, where a component has some.
+void set_strides(const ParticleBuffers& particles, shared::ProjectLaunch& launch);
+Launch& pass_columns(Launch& launch, const ParticleBuffers& particles);
 
 }  // namespace splotchcl

@@ -40,10 +40,18 @@ struct SplatBlocks {
 // What became of particles.
 struct ParticleCounts {
   std::uint64_t visible = 0, bad = 0;
-  std::uint64_t too_sharp = 0;  // for the frame's precision, in the whole picture
-  std::uint64_t around = 0;     // the camera: not among the splats
-  // Where those are, where blocks were counted one by one.
-  std::vector<ChunkBlocks> chunks_around;
+  std::uint64_t too_sharp = 0;             // for the frame's precision, in the whole picture
+  std::uint64_t around = 0;                // the camera: not among the splats
+  std::vector<ChunkBlocks> chunks_around;  // where those may be
+
+  ParticleCounts& operator+=(const ParticleCounts& more) {
+    visible += more.visible;
+    bad += more.bad;
+    too_sharp += more.too_sharp;
+    around += more.around;
+    chunks_around.insert(chunks_around.end(), more.chunks_around.begin(), more.chunks_around.end());
+    return *this;
+  }
 };
 
 // All splats of a frame in component and file order, with their sort keys, which have no gaps.
@@ -91,22 +99,6 @@ struct Planes {
   std::uint32_t used_grids = 0;  // bit g: grid g has light; the planes of others are undefined
 };
 
-// What splats of a sum, or the nearest of an ordered frame, have come to: their light, and what the
-// check needs of them (Certifier).
-struct SplatLight {
-  Planes planes;
-  Buffer<float> cells;  // none where nothing has been collected
-};
-
-// What lists need of the clouds around the camera that are among them (clouds.cl).
-struct CloudTables {
-  Buffer<shared::CloudEntry> entries;
-  Buffer<shared::CloudSplat> splats;
-  // Of each pixel of the picture's grid in memory, as its planes lie; and of its tiles.
-  Buffer<float> directions;
-  Buffer<shared::DirectionCone> cones;
-};
-
 // Where grids are brought to the picture's own: what one level after the other is blurred and
 // interpolated to, by turns, and what each step makes along one axis.
 struct CollectingRoom {
@@ -120,6 +112,23 @@ struct SlabLight {
   // Of eight pixels of a row each: what any order of the slabs' splats could change at most.
   Buffer<float> errors;
   CollectingRoom room;
+};
+
+// What splats of a sum, or the nearest of an ordered frame, have come to: their light, and what the
+// check needs of them (Certifier).
+struct SplatLight {
+  Planes planes;
+  Buffer<float> cells;  // none where nothing has been collected
+  SlabLight slab;       // none where there are no slabs
+};
+
+// What lists need of the clouds around the camera that are among them (clouds.cl).
+struct CloudTables {
+  Buffer<shared::CloudEntry> entries;
+  Buffer<shared::CloudSplat> splats;
+  // Of each pixel of the picture's grid in memory, as its planes lie; and of its tiles.
+  Buffer<float> directions;
+  Buffer<shared::DirectionCone> cones;
 };
 
 }  // namespace splotchcl

@@ -1,26 +1,28 @@
 #pragma once
 
-#include "device/frame/component_colors.h"
+#include <cstdint>
+
 #include "device/frame/picture_layout.h"
+#include "device/frame/shared.h"
 #include "device/frame/variant.h"
+#include "device/opencl/buffer_pool.h"
 #include "device/opencl/device_context.h"
 #include "splotchcl/frame.h"
 #include "splotchcl/plan.h"
 
 namespace splotchcl {
 
+// The palettes of a frame's components on the device, and what a plan of this light adds up of
+// them.
+struct ComponentColorTable {
+  Buffer<shared::ComponentColors> components;
+  Buffer<float> knots;  // KNOT_FLOATS each
+};
+
 // What all stages of one frame read, and none changes. The frame, the plan and the device
 // outlive it.
 struct StageContext {
-  StageContext(DeviceContext& on, const Frame& of, const FramePlan& with)
-      : device(on),
-        frame(of),
-        plan(with),
-        variant(of, with, on.traits),
-        layout(make_picture_layout(of, with, variant)),
-        grids(on.pool.upload(all_grids(layout), "grids")),
-        stencils(on.pool.upload(stencils_of_blurs(with.pyramid), "stencils")),
-        colors(upload_component_colors(of, with.light, on.pool)) {}
+  StageContext(DeviceContext& on, const Frame& of, const FramePlan& with);
 
   DeviceContext& device;
   const Frame& frame;
@@ -31,5 +33,9 @@ struct StageContext {
   const Buffer<shared::Stencil> stencils;
   const ComponentColorTable colors;
 };
+
+// Sets `bytes` from `first` on to 0, both multiples of 4, as a part of that stage.
+void clear_memory(DeviceContext& device, const char* stage, const compute::buffer& memory,
+                  std::uint64_t first, std::uint64_t bytes);
 
 }  // namespace splotchcl

@@ -89,11 +89,6 @@ Variant Variant::of_slabs() const {
   return slabs;
 }
 
-// Splats of seven words are gathered in one sector of a GPU's memory with one more.
-bool Variant::has_whole_sectors() const {
-  return !rows && !ellipses && !vector_colors && !fine_places;
-}
-
 std::size_t Variant::splat_bytes() const {
   return sizeof(shared::Splat) + (ellipses ? sizeof(shared::WidthAlongX) : 0) +
          (face_of_cube ? sizeof(shared::Tilt) + sizeof(cl_float) : 0) +

@@ -43,7 +43,8 @@ struct Variant {
   // that word a splat is as many words as there are lanes, and most of those that are gathered in
   // sorted order lie in one line of the cache.
   bool has_own_tiles() const { return rows && !ellipses && !extended; }
-  bool has_whole_sectors() const;
+  // Splats of seven words are gathered in one sector of a GPU's memory with one more.
+  bool has_whole_sectors() const { return !rows && !ellipses && !vector_colors && !fine_places; }
   // Bytes of the structures that the variant makes larger or smaller (shared.h).
   std::size_t splat_bytes() const;
   std::size_t extended_splat_bytes() const;  // 0 where there are none

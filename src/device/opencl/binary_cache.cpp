@@ -46,7 +46,6 @@ std::string head_of(const std::string& key, const std::string& binary) {
   return head.str();
 }
 
-// How long a binary is that the head of a file tells of.
 std::optional<std::uint64_t> binary_bytes(const std::string& head) {
   constexpr std::size_t begin = sizeof(first_line) - 1;
   if (head.compare(0, begin, first_line) != 0) return std::nullopt;

@@ -1,12 +1,31 @@
 #include "device/opencl/buffer_pool.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
 #include <string>
 
+#include "scene/memory_advice.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
+
+constexpr std::size_t large_page = std::size_t{2} << 20;
+// Smaller buffers would be mostly the rest of their last page.
+constexpr std::size_t least_on_large_pages = 2 * large_page;
+// Buffers that began at the same place of a small page would share lines of the nearest cache, so
+// each begins so much farther: an odd number of OpenCL's largest values.
+constexpr std::size_t small_page = 4096, step = 13 * 128;
+
+struct Free {
+  void operator()(void* memory) const { std::free(memory); }
+};
+
+void CL_CALLBACK free_host_memory(cl_mem, void* memory) {
+  std::free(memory);
+}
 
 constexpr std::uint64_t padding = 64;
 
@@ -35,6 +54,21 @@ bool is_smaller(const compute::buffer& a, const compute::buffer& b) {
 }
 
 }  // namespace
+
+compute::buffer LargePages::buffer(const compute::context& context, std::size_t bytes) {
+  if (bytes < least_on_large_pages) return compute::buffer(context, bytes);
+  const std::size_t begin = made_++ * step % small_page;
+  const std::size_t whole_pages = (begin + bytes + large_page - 1) / large_page * large_page;
+  std::unique_ptr<void, Free> memory(std::aligned_alloc(large_page, whole_pages));
+  if (!memory) throw compute::opencl_error(CL_MEM_OBJECT_ALLOCATION_FAILURE);
+  expect_all_written(memory.get(), whole_pages);
+  compute::buffer buffer(context, bytes, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR,
+                         static_cast<std::byte*>(memory.get()) + begin);
+  // Commands that still use the buffer keep it, and with it its memory.
+  buffer.set_destructor_callback(&free_host_memory, memory.get());
+  memory.release();
+  return buffer;
+}
 
 PooledMemory::~PooledMemory() {
   if (pool_ != nullptr) pool_->give_back(std::move(memory_));
@@ -109,14 +143,6 @@ std::array<PooledMemory, 2> BufferPool::take_two(std::uint64_t bytes, const char
 void BufferPool::give_back(compute::buffer memory) {
   used_bytes_ -= memory.size();
   free_.push_back(std::move(memory));
-}
-
-void* BufferPool::map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes) {
-  compute::event event;
-  void* const values =
-      queue_.enqueue_map_buffer(memory, access, 0, static_cast<std::size_t>(bytes), event);
-  timer_.add_copy(event);
-  return values;
 }
 
 // What may lie idle beside what has been in use: without any, a little more that is wanted would

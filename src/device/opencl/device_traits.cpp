@@ -2,29 +2,30 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string>
 
-#include "device/opencl/quirks.h"
 #include "kernels/common/group.h"
 
 namespace splotchcl {
 namespace {
 
-void take_sizes_of_rows(DeviceTraits& traits) {
-  traits.sorts_in_groups = false;
-  traits.clears_in_pieces = true;
-  traits.draws_slabs = true;
-  traits.project_block = traits.interpolate_block = 8192;
-  // Every chunk loads and stores all tiles; lists that are much longer leave the caches, and
-  // ordered ones, of more and larger entries per splat, do so sooner.
-  traits.chunk_blocks = 128;
-  // Light is added to light in a few hundredths of the time that eight million particles take.
-  traits.leaf_chunks = 8;
-  traits.sorted_chunk = 1u << 19;
-  traits.bin_blocks = 64;
-  traits.sort_blocks = 32;
-  traits.segment_length = 8192;
-  traits.list_capacity = 3u << 20;
-}
+struct Implementation {
+  const char* platform;
+  cl_device_type devices;
+  Quirks quirks;
+};
+
+constexpr Quirks of_pocl_processor = {true, true, true, false, true, true, true};
+constexpr Quirks of_other_pocl = {true, false, false, false, false, false, false};
+// It is clang, too, and refuses its builtin for prefetching.
+constexpr Quirks of_nvidia = {false, false, false, true, false, false, false};
+
+// The first that suits counts; all others keep to the standard, as far as is known.
+constexpr Implementation implementations[] = {
+    {"Portable Computing Language", CL_DEVICE_TYPE_CPU, of_pocl_processor},
+    {"Portable Computing Language", CL_DEVICE_TYPE_ALL, of_other_pocl},
+    {"NVIDIA CUDA", CL_DEVICE_TYPE_ALL, of_nvidia},
+};
 
 // How much a GPU works through at a time. Each chunk launches some twenty kernels, which end when
 // the last of its groups does: the fewer chunks, the less of a GPU waits. The lists of a chunk take
@@ -39,32 +40,15 @@ constexpr GroupChunks group_chunks[] = {{30 * gigabyte, 1u << 24, 1u << 24, 64u 
                                         {7 * gigabyte, 1u << 22, 1u << 22, 16u << 20},
                                         {0, 1u << 20, 1u << 21, 8u << 20}};
 
-void take_sizes_of_groups(DeviceTraits& traits) {
-  constexpr std::uint32_t particles_of_leaf = 1u << 23;
-  const GroupChunks& chunks = *std::find_if(
-      std::begin(group_chunks), std::end(group_chunks),
-      [&](const GroupChunks& size) { return traits.gpu_memory >= size.least_memory; });
-  traits.sorts_in_groups = true;
-  traits.clears_in_pieces = traits.draws_slabs = false;
-  traits.project_block = GROUP_ITEMS;
-  traits.interpolate_block = 1;  // neighbors read neighboring memory
-  traits.chunk_blocks = chunks.particles / GROUP_ITEMS;
-  traits.leaf_chunks = std::max(1u, particles_of_leaf / chunks.particles);
-  traits.sorted_chunk = chunks.splats;
-  traits.bin_blocks = 64;
-  traits.sort_blocks = 4096;
-  traits.segment_length = 2048;
-  traits.list_capacity = chunks.entries;
-}
-
 }  // namespace
 
-Choices lanes_of(const DeviceTraits& traits) {
-  return lanes_of(traits.rows);
-}
-
-std::string shape_name(const DeviceTraits& traits) {
-  return std::string(traits.rows ? "rows" : "groups") + (traits.rows_of_16 ? " of 16" : "");
+Quirks quirks_of(const compute::device& device) {
+  const std::string platform = device.platform().name();
+  const auto found = std::find_if(
+      std::begin(implementations), std::end(implementations), [&](const Implementation& one) {
+        return platform == one.platform && (device.type() & one.devices) != 0;
+      });
+  return found != std::end(implementations) ? found->quirks : Quirks();
 }
 
 DeviceTraits traits_of(const compute::device& device) {
@@ -77,18 +61,53 @@ DeviceTraits traits_of(const compute::device& device) {
   if (traits.is_gpu) traits.gpu_memory = device.global_memory_size();
   traits.threads = device.compute_units();
   traits.rows_of_16 = device.get_info<cl_uint>(CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT) >= 16;
-  choose_shape(traits, !traits.is_gpu);
+  traits.choose_shape(!traits.is_gpu);
   return traits;
 }
 
-void choose_shape(DeviceTraits& traits, bool rows) {
+void DeviceTraits::take_sizes_of_rows() {
+  sorts_in_groups = false;
+  clears_in_pieces = true;
+  draws_slabs = true;
+  project_block = interpolate_block = 8192;
+  // Every chunk loads and stores all tiles; lists that are much longer leave the caches, and
+  // ordered ones, of more and larger entries per splat, do so sooner.
+  chunk_blocks = 128;
+  // Light is added to light in a few hundredths of the time that eight million particles take.
+  leaf_chunks = 8;
+  sorted_chunk = 1u << 19;
+  bin_blocks = 64;
+  sort_blocks = 32;
+  segment_length = 8192;
+  list_capacity = 3u << 20;
+}
+
+void DeviceTraits::take_sizes_of_groups() {
+  constexpr std::uint32_t particles_of_leaf = 1u << 23;
+  const GroupChunks& chunks =
+      *std::find_if(std::begin(group_chunks), std::end(group_chunks),
+                    [&](const GroupChunks& size) { return gpu_memory >= size.least_memory; });
+  sorts_in_groups = true;
+  clears_in_pieces = draws_slabs = false;
+  project_block = GROUP_ITEMS;
+  interpolate_block = 1;  // neighbors read neighboring memory
+  chunk_blocks = chunks.particles / GROUP_ITEMS;
+  leaf_chunks = std::max(1u, particles_of_leaf / chunks.particles);
+  sorted_chunk = chunks.splats;
+  bin_blocks = 64;
+  sort_blocks = 4096;
+  segment_length = 2048;
+  list_capacity = chunks.entries;
+}
+
+void DeviceTraits::choose_shape(bool in_rows) {
   // Sizes that a test has set for the shape stay.
-  if (traits.project_block != 0 && traits.rows == rows) return;
-  traits.rows = rows;
+  if (project_block != 0 && rows == in_rows) return;
+  rows = in_rows;
   if (rows) {
-    take_sizes_of_rows(traits);
+    take_sizes_of_rows();
   } else {
-    take_sizes_of_groups(traits);
+    take_sizes_of_groups();
   }
 }
 

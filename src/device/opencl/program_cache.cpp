@@ -1,23 +1,43 @@
 #include "device/opencl/program_cache.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <exception>
 #include <functional>
 #include <memory>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "device/opencl/device_context.h"
-#include "device/opencl/program_build.h"
-#include "device/opencl/quirks.h"
+#include "device/opencl/device_traits.h"
+#include "device/opencl/pocl_cache.h"
 #include "device/opencl/runtime_lock.h"
-#include "device/opencl/shared_work.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
+
+class Threads {
+ public:
+  // Where there is none to be had, others do the work.
+  void start(const std::function<void()>& work) {
+    try {
+      threads_.emplace_back(work);
+    } catch (const std::system_error&) {
+    }
+  }
+  ~Threads() {
+    for (std::thread& thread : threads_)
+      thread.join();
+  }
+
+ private:
+  std::vector<std::thread> threads_;
+};
 
 // All that the compiled program depends on; a platform's version names its compiler's.
 std::string key_of(const compute::device& device, const ProgramText& text) {
@@ -25,7 +45,6 @@ std::string key_of(const compute::device& device, const ProgramText& text) {
          '\n' + text.options + '\n' + text.source;
 }
 
-// All that its text is made of.
 std::string key_of(const ProgramSource& source) {
   return source.file + (source.denormals_are_zero ? "\n0\n" : "\n") + source.defines + '\n' +
          source.variant + '\n' + source.more;
@@ -54,7 +73,6 @@ std::string binary_by(ProgramCompiler& compiler, const std::string& device,
   }
 }
 
-// Adds its life to `seconds`.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds) {}
@@ -69,7 +87,88 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+// Nothing where the driver refuses the binary: it may, for reasons of its own.
+std::optional<compute::program> program_of_binary(const compute::context& context,
+                                                  const std::string& options,
+                                                  const std::string& binary) {
+  try {
+    compute::program program = compute::program::create_with_binary(
+        reinterpret_cast<const unsigned char*>(binary.data()), binary.size(), context);
+    program.build(options);
+    return program;
+  } catch (const compute::opencl_error&) {
+    return std::nullopt;
+  }
+}
+
+// Of all its kernels, compiled. Empty where the driver has none to give.
+std::string binary_of(const compute::program& program) {
+  try {
+    const std::vector<unsigned char> binary = program.binary();
+    return std::string(binary.begin(), binary.end());
+  } catch (const compute::opencl_error&) {
+    return {};
+  }
+}
+
 }  // namespace
+
+compute::program build_program(const compute::context& context, const ProgramText& text,
+                               const std::string& names) {
+  compute::program program = compute::program::create_with_source(text.source, context);
+  try {
+    program.build(text.options);
+  } catch (const compute::opencl_error& error) {
+    const std::string cache = unwritable_pocl_cache();
+    const std::string hint =
+        cache.empty() ? "see that there is memory and room in the folder for temporary files, or "
+                        "choose another device: "
+                      : "PoCL cannot write to its cache folder, " + cache +
+                            ": set POCL_CACHE_DIR to one that can be written to: ";
+    throw DeviceError("device " + context.get_device().name() + " cannot compile " + names + ": " +
+                      error.error_string() + "; " + hint + program.build_log());
+  }
+  return program;
+}
+
+const compute::context* LocalCompiler::context_on(const std::string& device) {
+  const auto known = contexts_.find(device);
+  if (known != contexts_.end()) return &known->second;
+  for (const compute::device& found : compute::system::devices()) {
+    if (full_name_of(found) == device)
+      return &contexts_.emplace(device, compute::context(found)).first->second;
+  }
+  return nullptr;
+}
+
+std::string LocalCompiler::compile(const ProgramToCompile& program) {
+  try {
+    const compute::context* const context = context_on(program.device);
+    if (context == nullptr) return {};
+    return binary_of(build_program(*context, {program.options, program.source}, "a program"));
+  } catch (const std::exception&) {
+    return {};  // who asked compiles it, and tells why that fails
+  }
+}
+
+void share_work(std::size_t count, const std::function<void(std::size_t item)>& here,
+                const std::vector<std::function<bool(std::size_t item)>>& elsewhere) {
+  std::atomic<std::size_t> next{0};
+  Threads threads;
+  for (const auto& one : elsewhere) {
+    threads.start([&next, count, &one] {
+      for (std::size_t item = next++; item < count && one(item); item = next++) {
+      }
+    });
+  }
+  try {
+    for (std::size_t item = next++; item < count; item = next++)
+      here(item);
+  } catch (...) {
+    next = count;
+    throw;
+  }
+}
 
 compute::kernel Program::create_kernel(const std::string& name) const {
   return cache_->compiled(*entry_).create_kernel(name);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -13,6 +14,30 @@
 #include "splotchcl/program_compiler.h"
 
 namespace splotchcl {
+
+// Throws DeviceError with the compiler's first message; `names` says of what.
+compute::program build_program(const compute::context& context, const ProgramText& text,
+                               const std::string& names);
+
+// The other process's part: compiles in this one, on the first device of the names that are asked
+// for. Gives nothing where that fails. Keeps what PoCL has read for its first program.
+class LocalCompiler : public ProgramCompiler {
+ public:
+  std::string compile(const ProgramToCompile& program) override;
+
+ private:
+  const compute::context* context_on(const std::string& device);  // null: there is no such device
+
+  std::map<std::string, compute::context> contexts_;
+};
+
+// Items 0 to `count` are done one by one, in this order: each by whoever is free first of the
+// calling thread, which calls `here`, and of the `elsewhere`, each called in a thread of its own.
+// One of these that returns false has not done its item, and gets no other. Returns when all items
+// have been given out and ended. An exception of `here` is thrown when the others have ended the
+// item that they are at; they throw none.
+void share_work(std::size_t count, const std::function<void(std::size_t item)>& here,
+                const std::vector<std::function<bool(std::size_t item)>>& elsewhere);
 
 class ProgramCache;
 

@@ -4,12 +4,6 @@
 
 namespace splotchcl {
 
-double seconds_of(const compute::event& event) {
-  const auto start = event.get_profiling_info<cl_ulong>(CL_PROFILING_COMMAND_START);
-  const auto end = event.get_profiling_info<cl_ulong>(CL_PROFILING_COMMAND_END);
-  return 1e-9 * static_cast<double>(end - start);
-}
-
 template <class IsCounted>
 std::vector<StageTime> StageTimer::sum(IsCounted is_counted) const {
   std::vector<StageTime> times;
@@ -19,7 +13,9 @@ std::vector<StageTime> StageTimer::sum(IsCounted is_counted) const {
     auto found = std::find_if(times.begin(), times.end(),
                               [&](const StageTime& t) { return t.stage == stage_name; });
     if (found == times.end()) found = times.insert(times.end(), StageTime{stage_name, 0});
-    found->seconds += seconds_of(command.event);
+    const auto start = command.event.get_profiling_info<cl_ulong>(CL_PROFILING_COMMAND_START);
+    const auto end = command.event.get_profiling_info<cl_ulong>(CL_PROFILING_COMMAND_END);
+    found->seconds += 1e-9 * static_cast<double>(end - start);
   }
   return times;
 }

@@ -9,10 +9,6 @@
 
 namespace splotchcl {
 
-// What a command took by the device's own clock, once the queue has finished.
-double seconds_of(const compute::event& event);
-
-// Adds up the device's own times of the commands of each stage.
 class StageTimer {
  public:
   // What several cores may share, or not: on a processor a fill or a copy is one thread's work.

@@ -69,7 +69,6 @@ std::vector<ParticleChunk> chunks_of_leaves(const Frame& frame, const DeviceTrai
   return all;
 }
 
-// The stretch of a column that belongs to a chunk.
 void ask_for(const Column& column, std::size_t particles, const ParticleChunk& chunk,
              std::vector<float>& values) {
   if (!is_streamed(column) || particles == 0) return;

@@ -1,19 +1,47 @@
 #include "device/stages/certifier.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <string>
 #include <utility>
 
-#include "device/frame/cell_layout.h"
+#include "certificate/cells.h"
+#include "device/frame/stage_context.h"
 #include "device/opencl/launch.h"
-#include "device/stages/clear_memory.h"
 #include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "scene/plan/splat_limits.h"
+#include "splotchcl/error.h"
 
 namespace splotchcl {
 namespace {
 
-// Values of tiles, where those of an octave lie.
+// Where the cells of a tile of `width` by `height` pixels begin, octave by octave.
+void lay_out(int (*shift_of)(int octave), std::uint32_t width, std::uint32_t height,
+             shared::OctaveCells* octaves, std::uint32_t& count) {
+  for (int octave = 0; octave < WIDTH_OCTAVES; ++octave) {
+    const int shift = shift_of(octave);
+    octaves[octave] = {count, 2 * shift};
+    count += (width >> shift) * (height >> shift);
+  }
+}
+
+int side_of(const shared::OctaveCells& octave) {
+  return 1 << octave.pixel_bits / 2;
+}
+
+// Of the cells in a row of a tile, among those of their octave in the tile.
+std::vector<std::size_t> numbers_of_cells(int columns, int row) {
+  std::vector<std::size_t> numbers(static_cast<std::size_t>(columns));
+  for (std::size_t column = 0; column < numbers.size(); ++column) {
+    for (unsigned bit = 0; bit < 8; ++bit) {
+      numbers[column] |= (column >> bit & 1) << 2 * bit;
+      numbers[column] |= (static_cast<std::size_t>(row) >> bit & 1) << (2 * bit + 1);
+    }
+  }
+  return numbers;
+}
+
 struct TileCells {
   const float* values;
   std::size_t cells_per_tile;
@@ -22,13 +50,41 @@ struct TileCells {
   std::size_t first_of(std::size_t tile, const shared::OctaveCells& octave) const {
     return tile * cells_per_tile + octave.first;
   }
-  // Whether nothing was collected of the octave in any tile of the grid.
-  bool is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const;
-  // Room for those of the octave in all tiles of the grid.
-  CellSums sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const;
-  // Adds those in a row of the grid's tiles to those of other grids of its level.
+  bool is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+    const auto tiles =
+        static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
+    const auto cells = static_cast<std::size_t>((tile_width * tile_height) >> octave.pixel_bits);
+    for (std::size_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
+      const float* first = values + first_of(tile, octave);
+      if (std::any_of(first, first + cells, [](float value) { return value != 0; })) return false;
+    }
+    return true;
+  }
+
+  CellSums sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const {
+    CellSums sums;
+    sums.side = side_of(octave);
+    sums.columns = grid.tiles_x * (tile_width / sums.side);
+    sums.rows = grid.tiles_y * (tile_height / sums.side);
+    sums.values.resize(static_cast<std::size_t>(sums.columns) *
+                       static_cast<std::size_t>(sums.rows));
+    return sums;
+  }
+
   void add_row(const shared::OctaveCells& octave, const shared::Grid& grid, int tile_row,
-               CellSums& sums) const;
+               CellSums& sums) const {
+    const int across = tile_width / side_of(octave), along = tile_height / side_of(octave);
+    float* to = sums.values.data() + std::ptrdiff_t{tile_row} * along * sums.columns;
+    for (int row = 0; row < along; ++row) {
+      const std::vector<std::size_t> numbers = numbers_of_cells(across, row);
+      for (int column = 0; column < grid.tiles_x; ++column) {
+        const auto tile = static_cast<std::size_t>(tile_row * grid.tiles_x + column);
+        const float* const from = values + first_of(grid.first_tile + tile, octave);
+        for (const std::size_t number : numbers)
+          *to++ += from[number];
+      }
+    }
+  }
 };
 
 // An octave of splats on the grids of a level: those that have some, and what is gathered of them.
@@ -39,50 +95,10 @@ struct OctaveOfLevel {
   PeakCells cells;
 };
 
-// A row of its tiles.
 struct TileRow {
   std::size_t octave;
   int row;
 };
-
-int side_of(const shared::OctaveCells& octave) {
-  return 1 << octave.pixel_bits / 2;
-}
-
-bool TileCells::is_empty(const shared::OctaveCells& octave, const shared::Grid& grid) const {
-  const auto tiles =
-      static_cast<std::size_t>(grid.tiles_x) * static_cast<std::size_t>(grid.tiles_y);
-  const auto cells = static_cast<std::size_t>((tile_width * tile_height) >> octave.pixel_bits);
-  for (std::size_t tile = grid.first_tile; tile < grid.first_tile + tiles; ++tile) {
-    const float* first = values + first_of(tile, octave);
-    if (std::any_of(first, first + cells, [](float value) { return value != 0; })) return false;
-  }
-  return true;
-}
-
-CellSums TileCells::sums_of(const shared::OctaveCells& octave, const shared::Grid& grid) const {
-  CellSums sums;
-  sums.side = side_of(octave);
-  sums.columns = grid.tiles_x * (tile_width / sums.side);
-  sums.rows = grid.tiles_y * (tile_height / sums.side);
-  sums.values.resize(static_cast<std::size_t>(sums.columns) * static_cast<std::size_t>(sums.rows));
-  return sums;
-}
-
-void TileCells::add_row(const shared::OctaveCells& octave, const shared::Grid& grid, int tile_row,
-                        CellSums& sums) const {
-  const int across = tile_width / side_of(octave), along = tile_height / side_of(octave);
-  float* to = sums.values.data() + std::ptrdiff_t{tile_row} * along * sums.columns;
-  for (int row = 0; row < along; ++row) {
-    const std::vector<std::size_t> numbers = numbers_of_cells(across, row);
-    for (int column = 0; column < grid.tiles_x; ++column) {
-      const auto tile = static_cast<std::size_t>(tile_row * grid.tiles_x + column);
-      const float* const from = values + first_of(grid.first_tile + tile, octave);
-      for (const std::size_t number : numbers)
-        *to++ += from[number];
-    }
-  }
-}
 
 // The picture's own grid is a level of its own, apart from others that are as fine.
 std::vector<OctaveOfLevel> octaves_of_levels(const GridPyramid& pyramid) {
@@ -106,6 +122,20 @@ double longest_list(const float* listed, std::size_t tiles, std::size_t cells_pe
 
 }  // namespace
 
+void lay_out_cells(const Variant& variant, shared::CertifyParameters& parameters) {
+  const std::uint32_t width = variant.tile_width, height = variant.tile_height;
+  if (width != height && width != 2 * height) {
+    throw DeviceError("tiles of " + std::to_string(width) + "x" + std::to_string(height) +
+                      " pixels: they have to be squares, or twice as wide as high");
+  }
+  parameters.cells_per_tile = 0;
+  for (const auto& [shift_of, octaves] : {std::pair(&peak_cell_shift, parameters.peaks),
+                                          std::pair(&ending_cell_shift, parameters.endings)}) {
+    lay_out(shift_of, width, height, octaves, parameters.cells_per_tile);
+  }
+  parameters.listed = parameters.cells_per_tile++;
+}
+
 Certifier::Certifier(const StageContext& context) : context_(context) {
   if (!context.plan.has_errors_of_splats) return;
   const Variant& variant = context.variant;
@@ -128,31 +158,19 @@ Buffer<float> Certifier::room() const {
       std::uint64_t{context_.layout.tile_count} * parameters_.cells_per_tile, "peak cells");
 }
 
-void Certifier::start() {
-  cells_ = room();
-  clear_memory(context_.device, "certify", cells_.memory(), 0, cells_.size() * sizeof(float));
+void Certifier::begin(Buffer<float>& cells) const {
+  if (!context_.plan.has_errors_of_splats || cells.size() > 0) return;
+  cells = room();
+  clear_memory(context_.device, "certify", cells.memory(), 0, cells.size() * sizeof(float));
 }
 
-Buffer<float> Certifier::take_cells() {
-  return std::exchange(cells_, {});
-}
-
-const Buffer<float>& Certifier::begin_cells() {
-  if (context_.plan.has_errors_of_splats && !has_started()) start();
-  return cells_;
-}
-
-void Certifier::put_cells(Buffer<float> cells) {
-  cells_ = std::move(cells);
-}
-
-void Certifier::collect(const TileLists& lists) {
+void Certifier::collect(const TileLists& lists, Buffer<float>& cells) const {
   if (!context_.plan.has_errors_of_splats || lists.segment_count == 0) return;
-  if (!has_started()) start();
+  begin(cells);
   shared::CertifyParameters parameters = parameters_;
   parameters.segment_count = lists.segment_count;
   if (!context_.variant.rows) {
-    collect_in_groups(lists, parameters);
+    collect_in_groups(lists, parameters, cells);
     return;
   }
   Launch(context_.device, "certify", program_.create_kernel("collect"))
@@ -160,12 +178,13 @@ void Certifier::collect(const TileLists& lists) {
       .arg(context_.grids)
       .arg(lists.segments)
       .arg(lists.entries)
-      .arg(cells_)
+      .arg(cells)
       .run_pieces(lists.segment_count);
 }
 
 void Certifier::collect_in_groups(const TileLists& lists,
-                                  const shared::CertifyParameters& parameters) const {
+                                  const shared::CertifyParameters& parameters,
+                                  const Buffer<float>& cells) const {
   DeviceContext& device = context_.device;
   const auto partial_cells = device.pool.get<float>(
       std::uint64_t{lists.partial_count} * parameters.cells_per_tile, "cells of segments");
@@ -174,30 +193,29 @@ void Certifier::collect_in_groups(const TileLists& lists,
       .arg(context_.grids)
       .arg(lists.segments)
       .arg(lists.entries)
-      .arg(cells_)
+      .arg(cells)
       .arg(partial_cells)
       .run_groups(lists.segment_count, GROUP_ITEMS);
   if (lists.partial_count == 0) return;
   Launch(device, "certify", program_.create_kernel("collect_segments"))
       .value(parameters)
       .arg(lists.segments)
-      .arg(cells_)
+      .arg(cells)
       .arg(partial_cells)
       .run_groups(lists.segment_count, GROUP_ITEMS);
 }
 
-CellsOfTiles Certifier::read() const {
-  CellsOfTiles cells;
-  if (!has_started()) return cells;
-  const MappedValues<const float> values = context_.device.pool.map_to_read(cells_);
-  cells.values.assign(values.data(), values.data() + values.size());
-  cells.parameters = parameters_;
-  cells.tile_count = context_.layout.tile_count;
-  cells.tile_width = static_cast<int>(context_.variant.tile_width);
-  cells.tile_height = static_cast<int>(context_.variant.tile_height);
-  cells.grids = context_.layout.grids;
-  cells.pyramid = context_.plan.pyramid;
-  return cells;
+CellsOfTiles Certifier::read(const Buffer<float>& cells) const {
+  CellsOfTiles read;
+  if (cells.size() == 0) return read;
+  read.values = context_.device.pool.download(cells, static_cast<std::size_t>(cells.size()));
+  read.parameters = parameters_;
+  read.tile_count = context_.layout.tile_count;
+  read.tile_width = static_cast<int>(context_.variant.tile_width);
+  read.tile_height = static_cast<int>(context_.variant.tile_height);
+  read.grids = context_.layout.grids;
+  read.pyramid = context_.plan.pyramid;
+  return read;
 }
 
 // Of all octaves and levels that have some. All cores read what lies far apart: octaves first, to

@@ -7,9 +7,16 @@
 
 #include "certificate/certificate.h"
 #include "device/frame/records.h"
+#include "device/frame/shared.h"
 #include "device/frame/stage_context.h"
+#include "device/frame/variant.h"
 
 namespace splotchcl {
+
+// Where a tile's cells are, in which the stage `certify` collects: sets peaks, endings, listed and
+// cells_per_tile. Throws DeviceError where tiles are neither squares nor twice as wide as high: the
+// numbers of their pixels would not follow each other (certify.h).
+void lay_out_cells(const Variant& variant, shared::CertifyParameters& parameters);
 
 // What was collected, read back tile by tile: to be gathered while the device does other work.
 struct CellsOfTiles {
@@ -30,29 +37,24 @@ class Certifier {
  public:
   explicit Certifier(const StageContext& context);
 
-  void collect(const TileLists& lists);
-  // Of all lists so far; waits for the device.
-  CellsOfTiles read() const;
-
-  // The same as it lies on the device, tile by tile, none where there were no lists: begins anew,
-  // or goes on with what was taken.
-  Buffer<float> take_cells();
+  // Adds what the lists have to `cells`: of all lists so far, tile by tile; none, where there were
+  // no lists.
+  void collect(const TileLists& lists, Buffer<float>& cells) const;
+  // Makes those of no lists, where there are none.
+  void begin(Buffer<float>& cells) const;
+  // Waits for the device.
+  CellsOfTiles read(const Buffer<float>& cells) const;
   // Memory for as much, of which nothing has been written to; none in extended precision.
   Buffer<float> room() const;
-  // Of no lists yet, where there are none.
-  const Buffer<float>& begin_cells();
-  void put_cells(Buffer<float> cells);
   std::uint32_t cells_per_tile() const { return parameters_.cells_per_tile; }
 
  private:
-  void start();
-  void collect_in_groups(const TileLists& lists, const shared::CertifyParameters& parameters) const;
+  void collect_in_groups(const TileLists& lists, const shared::CertifyParameters& parameters,
+                         const Buffer<float>& cells) const;
 
   const StageContext& context_;
   shared::CertifyParameters parameters_{};
   Program program_;
-  Buffer<float> cells_;  // none: not started
-  bool has_started() const { return cells_.size() > 0; }
 };
 
 }  // namespace splotchcl

@@ -113,8 +113,7 @@ shared::DirectionCone look_through(const StageContext& context, int left, int to
 void fill_directions(const StageContext& context, CloudTables& tables) {
   const shared::Grid& grid = context.layout.grids.front();
   BufferPool& pool = context.device.pool;
-  tables.directions = pool.get<float>(std::uint64_t{3} * grid.plane_size, "directions");
-  const MappedValues<float> planes = pool.map_to_write(tables.directions);
+  std::vector<float> planes(std::size_t{3} * grid.plane_size);
   const auto columns = static_cast<std::size_t>(grid.tiles_x);
   std::vector<shared::DirectionCone> cones(columns * static_cast<std::size_t>(grid.tiles_y));
   for_blocks(cones.size(), 8, [&](std::size_t first, std::size_t end) {
@@ -126,6 +125,7 @@ void fill_directions(const StageContext& context, CloudTables& tables) {
           look_through(context, grid.first_x + left, grid.first_y + top, planes.data(), directions);
     }
   });
+  tables.directions = pool.upload(planes, "directions");
   tables.cones = pool.upload(cones, "cones of directions");
 }
 
@@ -214,6 +214,40 @@ void CloudsInLists::append(std::size_t begin, std::size_t end, KeyedSplats& keye
   write(*context_, keys, first * sizeof(std::uint32_t), keyed.keys.memory());
   write(*context_, order, first * sizeof(std::uint32_t), keyed.order.memory());
   keyed.count += static_cast<std::uint32_t>(end - begin);
+}
+
+std::vector<std::uint64_t> CloudLayers::places_among(const std::vector<std::uint64_t>& keys,
+                                                     std::uint64_t first, std::size_t begin_cloud,
+                                                     std::size_t end_cloud) const {
+  std::vector<std::uint64_t> cloud_keys;
+  for (std::size_t k = begin_cloud; k < end_cloud; ++k)
+    cloud_keys.push_back(clouds_[k].key);
+  // Of each of these clouds the splats between it and the one before, and those behind all.
+  std::vector<std::uint64_t> between(cloud_keys.size() + 1);
+  for (const std::uint64_t key : keys) {
+    const auto behind = std::lower_bound(cloud_keys.begin(), cloud_keys.end(), key);
+    ++between[static_cast<std::size_t>(behind - cloud_keys.begin())];
+  }
+  std::vector<std::uint64_t> places;
+  for (std::size_t k = 0; k < cloud_keys.size(); ++k) {
+    first += between[k];
+    places.push_back(first);
+  }
+  return places;
+}
+
+void CloudLayers::skip_before(std::uint64_t first) {
+  while (taken_ < splats_before_.size() && splats_before_[taken_] < first)
+    ++taken_;
+}
+
+std::optional<CloudLayer> CloudLayers::take_before(std::uint64_t end) {
+  if (taken_ == splats_before_.size() || splats_before_[taken_] >= end) return std::nullopt;
+  CloudLayer layer = {taken_, taken_, splats_before_[taken_]};
+  while (layer.end < splats_before_.size() && splats_before_[layer.end] == layer.splats_before)
+    ++layer.end;
+  taken_ = layer.end;
+  return layer;
 }
 
 }  // namespace splotchcl

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "device/frame/float_pair.h"
+#include "device/frame/stage_context.h"
 #include "device/opencl/launch.h"
-#include "device/stages/clear_memory.h"
+#include "device/stages/project_parameters.h"
 #include "device/stages/stage_programs.h"
 
 namespace splotchcl {

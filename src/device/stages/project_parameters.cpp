@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "device/frame/column_arguments.h"
-#include "device/frame/key_windows.h"
+#include "device/frame/chunks.h"
+#include "device/frame/particle_store.h"
 #include "scene/ceil_divide.h"
 #include "scene/depth_key.h"
 #include "scene/particle_rules.h"
@@ -21,7 +21,7 @@ namespace {
 
 template <typename Real>
 void split_in_two(double value, Real& high, Real& low) {
-  // Volatile, as in float_pair.h.
+  // Volatile, as in nearest_float().
   const volatile Real nearest = static_cast<Real>(value);
   high = nearest;
   low = std::isfinite(high) ? static_cast<Real>(value - static_cast<double>(high)) : 0;
@@ -346,6 +346,18 @@ shared::ProjectParameters<double> extended_parameters(const StageContext& contex
   return p;
 }
 
+void split_in_three(double value, float (&parts)[3]) {
+  for (float& part : parts) {
+    part = nearest_float(value);
+    value -= static_cast<double>(part);
+  }
+}
+
+void copy(const Vec3& from, shared::FloatPair (&to)[3]) {
+  for (int axis = 0; axis < 3; ++axis)
+    to[axis] = pair_of(from.a[axis]);
+}
+
 }  // namespace
 
 shared::ProjectParameters<float> make_project_parameters(const StageContext& context,
@@ -392,6 +404,27 @@ shared::WideInteger wide(std::uint64_t value) {
 
 shared::WideInteger wide(std::int64_t value) {
   return wide(static_cast<std::uint64_t>(value));
+}
+
+shared::SharpParameters make_sharp_parameters(const StageContext& context,
+                                              const DrawnComponent& component) {
+  const Frame& frame = context.frame;
+  const CameraFrame& camera = frame.camera;
+  const shared::Grid& grid = context.layout.grids.front();
+  shared::SharpParameters e{};
+  for (int axis = 0; axis < 3; ++axis)
+    split_in_three(camera.position.a[axis] - component.particles.origin.a[axis], e.position[axis]);
+  copy(camera.right, e.right);
+  copy(camera.down, e.down);
+  copy(camera.forward, e.forward);
+  e.pixels_per_length =
+      pair_of(frame.projection == Projection::orthographic ? camera.pixels_per_length
+                                                           : camera.focal_pixels);
+  e.center_from_middle_x = pair_of(camera.center_x - grid.middle_x);
+  e.center_from_middle_y = pair_of(camera.center_y - grid.middle_y);
+  e.eye_offset = pair_of(camera.eye_offset);
+  copy(turn_axis_in_view(camera), e.turn_axis);
+  return e;
 }
 
 }  // namespace splotchcl

@@ -1,13 +1,29 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "device/frame/chunks.h"
 #include "device/frame/particle_store.h"
+#include "device/frame/shared.h"
 #include "device/frame/stage_context.h"
 #include "device/opencl/launch.h"
 
 namespace splotchcl {
+
+// Volatile, since GCC 12 at -O3 takes the way to float and back for nothing.
+inline float nearest_float(double value) {
+  const volatile float nearest = static_cast<float>(value);
+  return nearest;
+}
+
+// What is left of a number beyond single precision goes to the low part; of an infinite one nothing
+// is.
+inline shared::FloatPair pair_of(double value) {
+  const float high = nearest_float(value);
+  if (!std::isfinite(high)) return {high, 0};
+  return {high, nearest_float(value - static_cast<double>(high))};
+}
 
 // Constants of the projection of one of the frame's components (kernels/project/project.h),
 // without the particles of a launch and the strides of their columns.
@@ -33,5 +49,10 @@ ParticleBuffers particles_in_view(const StageContext& context, ParticleStore& pa
 // The words of an integer, as kernels take it.
 shared::WideInteger wide(std::uint64_t value);
 shared::WideInteger wide(std::int64_t value);
+
+// What the places of sharp splats of one of the frame's components follow from
+// (kernels/project/sharp_places.cl).
+shared::SharpParameters make_sharp_parameters(const StageContext& context,
+                                              const DrawnComponent& component);
 
 }  // namespace splotchcl

@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "device/frame/column_arguments.h"
+#include "device/frame/block_boxes.h"
+#include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/shared.h"
-#include "device/frame/view_bounds.h"
 #include "device/stages/project_parameters.h"
-#include "device/stages/sharp_parameters.h"
 #include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "splotchcl/error.h"
@@ -20,8 +19,6 @@ namespace splotchcl {
 namespace {
 
 static_assert(width_octaves == WIDTH_OCTAVES);
-
-// What follows from the counts of blocks that were projected.
 
 ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   ParticleCounts sum;
@@ -34,7 +31,6 @@ ParticleCounts sum_of(const std::vector<shared::BlockCounts>& blocks) {
   return sum;
 }
 
-// Which of a chunk's blocks have particles around the camera.
 std::vector<std::uint32_t> blocks_around(const shared::BlockCounts* first, std::size_t count) {
   std::vector<std::uint32_t> blocks;
   for (std::uint32_t b = 0; b < count; ++b) {
@@ -87,7 +83,7 @@ void check_blocks_of_groups(const DeviceTraits& traits) {
   throw DeviceError(
       "found blocks of " + std::to_string(traits.project_block) +
       " particles in the shape for GPUs, expected as many as its groups have items, " +
-      std::to_string(GROUP_ITEMS) + "; leave their size to choose_shape");
+      std::to_string(GROUP_ITEMS) + "; leave their size to DeviceTraits");
 }
 
 }  // namespace

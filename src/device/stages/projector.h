@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "device/frame/chunks.h"
-#include "device/frame/key_windows.h"
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
@@ -13,7 +12,6 @@
 
 namespace splotchcl {
 
-// What became of a chunk's particles, and the bins of its blocks' keys.
 struct ChunkKeys {
   ParticleCounts particles;
   std::vector<shared::KeyBins> bins;
@@ -44,7 +42,6 @@ class Projector {
   std::uint32_t project_window(const ParticleChunk& chunk, const ParticleBuffers& particles,
                                const KeyWindow& window, const std::vector<std::uint32_t>& without,
                                const KeyedSplats& keyed, std::uint32_t first_slot) const;
-  // Room for `count` splats and their keys.
   KeyedSplats keyed_memory(std::uint32_t count) const;
 
  private:

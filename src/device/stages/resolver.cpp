@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "certificate/certificate.h"
+#include "device/frame/stage_context.h"
 #include "device/opencl/launch.h"
-#include "device/stages/clear_memory.h"
 #include "device/stages/stage_programs.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/memory_advice.h"
-#include "scene/plan/blur_filter.h"
+#include "scene/plan/grid_filters.h"
 #include "scene/plan/grid_pyramid.h"
 #include "splotchcl/frame_check.h"
 
@@ -164,7 +164,6 @@ Resolver::LevelLight Resolver::collect(const Planes& planes, int finest,
   return coarser;
 }
 
-// Of the level's grids that hold light.
 std::vector<std::size_t> Resolver::blurs_with_light(const Planes& planes, int level) const {
   const GridPyramid& pyramid = context_.plan.pyramid;
   std::vector<std::size_t> used;
@@ -175,7 +174,6 @@ std::vector<std::size_t> Resolver::blurs_with_light(const Planes& planes, int le
   return used;
 }
 
-// What the target takes from the level's grids of these blurs.
 void Resolver::blur(const Planes& planes, const std::vector<std::size_t>& blurs, int level,
                     const LevelLight& target, bool add, const CollectingRoom& room) const {
   if (context_.variant.rows) {
@@ -213,7 +211,6 @@ void Resolver::blur_in_strips(const Planes& planes, const std::vector<std::size_
                 context_.variant.planes());
 }
 
-// From the source along x, then along y to the target.
 void Resolver::blur_by_axes(const Planes& planes, std::size_t blur, int level,
                             const LevelLight& target, bool add,
                             const Buffer<float>& columns) const {
@@ -261,12 +258,10 @@ shared::RefineParameters Resolver::refine_parameters(std::uint32_t coarse, std::
   return parameters;
 }
 
-// Work-items for so many times eight pixels.
 std::size_t Resolver::items_of(std::size_t eights) const {
   return ceil_divide(eights, context_.variant.eights_of_item());
 }
 
-// The first axis.
 void Resolver::refine_columns(const LevelLight& coarse, const shared::RefineParameters& parameters,
                               const Buffer<float>& columns) const {
   Launch(context_.device, "resolve", grids_program_.create_kernel("refine_columns"))
@@ -278,7 +273,6 @@ void Resolver::refine_columns(const LevelLight& coarse, const shared::RefinePara
                 context_.variant.planes());
 }
 
-// The same from one level to the next.
 void Resolver::refine(const LevelLight& coarse, const LevelLight& fine,
                       const shared::GridPart& part, bool add, const Buffer<float>& columns) const {
   shared::RefineParameters parameters = refine_parameters(coarse.grid, fine.grid, part);
@@ -354,11 +348,6 @@ std::vector<float> Resolver::errors_of_slabs(const SlabLight& slab) const {
     }
   }
   return blocks;
-}
-
-// Planes of others hold depths.
-bool Resolver::has_opacities() const {
-  return context_.plan.needs_sort() && !context_.plan.is_extended();
 }
 
 Buffer<float> Resolver::find_deepest(const Planes& planes) const {

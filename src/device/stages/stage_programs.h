@@ -8,7 +8,7 @@ namespace splotchcl {
 // What a projection writes.
 enum class ProjectOutput {
   splats,
-  splats_and_keys,  // of those in a window of sort keys (key_windows.h)
+  splats_and_keys,  // of those in a window of sort keys (chunks.h)
   key_counts,       // how many of these keys lie in each bin, and no splats
 };
 

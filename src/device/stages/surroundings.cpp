@@ -3,28 +3,94 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
-#include "device/frame/column_arguments.h"
-#include "device/frame/key_windows.h"
+#include "device/frame/chunks.h"
+#include "device/frame/particle_store.h"
+#include "device/frame/stage_context.h"
 #include "device/opencl/launch.h"
-#include "device/stages/clear_memory.h"
-#include "device/stages/layer_planes.h"
 #include "device/stages/project_parameters.h"
 #include "device/stages/stage_programs.h"
+#include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
 #include "scene/plan/light_structure.h"
 #include "scene/projection.h"
 #include "splotchcl/error.h"
-#include "surroundings/clouds_in_blocks.h"
+#include "surroundings/cloud_around.h"
 #include "surroundings/columns_around.h"
-#include "surroundings/narrowest_detail.h"
 
 namespace splotchcl {
 namespace {
+
+// An optical depth as planes carry it (opacity.cl).
+float carried(double depth, bool keeps_transmittance) {
+  const double opacity = -std::expm1(-depth);
+  if (!keeps_transmittance || opacity < 0.5) return static_cast<float>(opacity);
+  return -std::max(static_cast<float>(std::exp(-depth)), std::numeric_limits<float>::min());
+}
+
+// A row of light. Interpolation may leave less than nothing, by as little as it errs.
+void put_light(const double* light, std::size_t count, float* to) {
+  for (std::size_t i = 0; i < count; ++i)
+    to[i] = static_cast<float>(std::max(light[i], 0.0));
+}
+
+// A row of optical depths as planes carry them. Most layers are thin, and take no function then: by
+// five terms of the series, whose error is depth^5 / 720 of it, less than single precision rounds
+// off.
+void put_depths(const double* depths, std::size_t count, bool keeps_transmittance, float* to) {
+  constexpr double thin = 0.03;
+  const bool are_thin = *std::max_element(depths, depths + count) < thin;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double d = std::max(depths[i], 0.0);
+    to[i] = are_thin ? static_cast<float>(
+                           d * (1 - d * (1. / 2 - d * (1. / 6 - d * (1. / 24 - d * (1. / 120))))))
+                     : carried(d, keeps_transmittance);
+  }
+}
+
+// Of what is worked out for a pixel of a layer: in ordered frames light and optical depths, else
+// the sum.
+std::size_t channels_of_layer(const FramePlan& plan) {
+  return plan.light == LightPlan::ordered ? 6 : 3;
+}
+
+// The layer as the planes of the picture's grid have it (kernels/composite/behind.cl), without
+// padding: of the frame's crop; in extended frames two planes for each channel, as pairs of floats.
+Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& layer) {
+  const auto width = static_cast<std::size_t>(context.frame.crop.width);
+  const auto height = static_cast<std::size_t>(context.frame.crop.height);
+  const std::size_t channels = channels_of_layer(context.plan);
+  const std::size_t planes = context.plan.is_extended() ? 2 : 1, pixels = width * height;
+  std::vector<float> floats(planes * channels * pixels);
+  constexpr std::size_t rows_at_once = 8;
+  for_blocks(height, rows_at_once, [&](std::size_t first, std::size_t end) {
+    std::vector<double> row;
+    for (std::size_t y = first; y < end; ++y) {
+      layer.row(static_cast<int>(y), row);
+      for (std::size_t c = 0; c < channels; ++c) {
+        const double* const values = row.data() + c * width;
+        float* const to = floats.data() + planes * c * pixels + y * width;
+        for (std::size_t x = 0; planes == 2 && x < width; ++x) {
+          const shared::FloatPair pair = pair_of(values[x]);
+          to[x] = pair.high;
+          to[x + pixels] = pair.low;
+        }
+        if (planes == 2) continue;
+        if (c >= 3)
+          put_depths(values, width, context.plan.layers.keeps_transmittance, to);
+        else
+          put_light(values, width, to);
+      }
+    }
+  });
+  return context.device.pool.upload(floats, "clouds around");
+}
 
 // Less of a column of 1 shows nowhere, however many there are.
 constexpr double negligible = 1e-14;
@@ -43,7 +109,6 @@ double phi(double y) {
   return y < 1e-4 ? 1 - y / 2 + y * y / 6 : -std::expm1(-y) / y;
 }
 
-// The largest of E w and A w.
 double brightest_of(const CloudAround& cloud) {
   double brightest = 0;
   for (std::size_t c = 0; c < 3; ++c)
@@ -168,10 +233,6 @@ void Surroundings::end_where_nothing_shows(std::vector<CloudAround>& clouds, dou
   }
 }
 
-void Surroundings::end_nearer(std::vector<CloudAround>& clouds) const {
-  end_where_nothing_shows(clouds, 0.5);
-}
-
 std::vector<CloudAround> Surroundings::list(
     const std::vector<ChunkBlocks>& chunks,
     const std::function<ParticleBuffers(const ParticleChunk&)>& get, std::uint64_t counted) const {
@@ -250,34 +311,25 @@ SmoothPicture Surroundings::picture_of(const std::vector<CloudAround>& clouds,
   return SmoothPicture(settings, pixels_of_row);
 }
 
-void Surroundings::draw(const std::vector<CloudAround>& clouds, const Planes& planes) const {
-  if (!clouds.empty()) put_behind(clouds, {0, clouds.size(), 0}, 1, planes);
-}
-
-// There are no more layers than clouds.
+// The layer in stretches of clouds that are worked out alike, one behind the other.
 void Surroundings::draw(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                         const Planes& planes) const {
-  put_behind(clouds, layer, clouds.size(), planes);
-}
-
-// The layer in stretches of clouds that are worked out alike, one behind the other.
-void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
-                              std::size_t parts, const Planes& planes) const {
   // Certified frames are worked out in every pixel.
   const std::vector<std::size_t> ends =
       context_.plan.certify ? std::vector{layer.end}
                             : ends_of_stretches(clouds, layer.first, layer.end, context_.frame);
+  // There are no more layers than clouds, and of sums one.
+  const std::size_t layers = context_.plan.needs_sort() ? clouds.size() : 1;
   CloudLayer stretch = layer;
   for (const std::size_t end : ends) {
     stretch.end = end;
-    put_stretch_behind(clouds, stretch, std::max(parts, ends.size()), planes);
+    put_behind(clouds, stretch, std::max(layers, ends.size()), planes);
     stretch.first = end;
   }
 }
 
-void Surroundings::put_stretch_behind(const std::vector<CloudAround>& clouds,
-                                      const CloudLayer& layer, std::size_t parts,
-                                      const Planes& planes) const {
+void Surroundings::put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
+                              std::size_t parts, const Planes& planes) const {
   const Rectangle& crop = context_.frame.crop;
   shared::BehindParameters parameters{};
   parameters.width = crop.width;
@@ -289,8 +341,7 @@ void Surroundings::put_stretch_behind(const std::vector<CloudAround>& clouds,
       0.25 * share_of_promise * context_.plan.shares.promise / static_cast<double>(parts);
   const double of_depth = brightest();
   const SmoothPicture picture = picture_of(clouds, layer, allowed, of_depth);
-  const bool may_round = SmoothPicture::single_rounding * of_depth * picture.largest() <= allowed;
-  const Buffer<float> behind = layer_planes(context_, picture, may_round);
+  const Buffer<float> behind = layer_planes(context_, picture);
   const auto items =
       static_cast<std::size_t>(ceil_divide(crop.width, context_.variant.pixels_behind()));
   Launch(device, "surroundings",

@@ -9,7 +9,9 @@
 #include "device/frame/particle_store.h"
 #include "device/frame/records.h"
 #include "device/frame/stage_context.h"
-#include "device/stages/cloud_layers.h"
+#include "device/opencl/buffer_pool.h"
+#include "device/stages/clouds_in_lists.h"
+#include "splotchcl/plan.h"
 #include "surroundings/cloud_around.h"
 #include "surroundings/smooth_picture.h"
 
@@ -33,14 +35,11 @@ class Surroundings {
   std::vector<CloudAround> in_order(std::vector<CloudAround> clouds) const;
 
   // Ends them nearer: of what they may err by, half is lost there. Not for what is interpolated.
-  void end_nearer(std::vector<CloudAround>& clouds) const;
+  void end_nearer(std::vector<CloudAround>& clouds) const { end_where_nothing_shows(clouds, 0.5); }
 
-  // All of these clouds, added to what is in the planes of a sum.
-  void draw(const std::vector<CloudAround>& clouds, const Planes& planes) const;
-  // The layer's clouds, behind what is in the planes of an ordered frame.
+  // The layer's clouds: behind what is in the planes of an ordered frame, or added to a sum.
   void draw(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
             const Planes& planes) const;
-
   // The part of the promise that all of this may spend.
   static constexpr double share_of_promise = 0.02;
 
@@ -56,14 +55,12 @@ class Surroundings {
                           std::uint64_t most) const;
   void append(std::uint32_t c, const std::vector<Found>& found,
               std::vector<CloudAround>& clouds) const;
-  // Pixels may err by `allowed`, interpolated; and once more by so much, rounded.
+  // Pixels may err by `allowed`, interpolated.
   SmoothPicture picture_of(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                            double allowed, double brightest) const;
   // `parts` of the picture share what they may err by.
   void put_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
                   std::size_t parts, const Planes& planes) const;
-  void put_stretch_behind(const std::vector<CloudAround>& clouds, const CloudLayer& layer,
-                          std::size_t parts, const Planes& planes) const;
 
   const StageContext& context_;
 };

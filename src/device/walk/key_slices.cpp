@@ -8,7 +8,6 @@
 namespace splotchcl {
 namespace {
 
-// Bin `bin` as a window of its own.
 KeyWindow window_of_bin(const CountedKeys& counted, std::size_t bin) {
   const std::uint64_t width = std::uint64_t{1} << counted.shift;
   // The counted keys agree in all bits above those that number the bins.

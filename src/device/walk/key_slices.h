@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "device/frame/chunks.h"
-#include "device/frame/key_windows.h"
 
 namespace splotchcl {
 

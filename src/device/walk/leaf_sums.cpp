@@ -6,10 +6,13 @@
 #include "device/ranks/rank_share.h"
 
 namespace splotchcl {
-void LightAdder::add(const char* kernel, const shared::AddLightParameters& parameters,
-                     std::size_t planes, const Buffer<float>& to, const Buffer<float>& from) const {
-  Launch(context_.device, "composite",
-         context_.device.programs.get(program_source("kernels/composite/add_light.cl"))
+namespace {
+
+void add(const StageContext& context, const char* kernel,
+         const shared::AddLightParameters& parameters, std::size_t planes, const Buffer<float>& to,
+         const Buffer<float>& from) {
+  Launch(context.device, "composite",
+         context.device.programs.get(program_source("kernels/composite/add_light.cl"))
              .create_kernel(kernel))
       .value(parameters)
       .arg(to)
@@ -17,54 +20,48 @@ void LightAdder::add(const char* kernel, const shared::AddLightParameters& param
       .run_grid((parameters.plane_floats + 7) / 8, planes, 1);
 }
 
-void LightAdder::add_planes(const Planes& to, const Planes& from, std::size_t g) const {
-  const shared::Grid& grid = context_.layout.grids[g];
-  const std::size_t planes = context_.variant.planes();
+void add_planes(const StageContext& context, const Planes& to, const Planes& from, std::size_t g) {
+  const shared::Grid& grid = context.layout.grids[g];
+  const std::size_t planes = context.variant.planes();
   const shared::AddLightParameters parameters = {grid.first_float_low, grid.first_float_high,
                                                  grid.plane_size};
-  const bool is_pairs = context_.variant.extended;
+  const bool is_pairs = context.variant.extended;
   if ((to.used_grids >> g & 1) != 0) {
-    add(is_pairs ? "add_pairs_of_light" : "add_light", parameters, is_pairs ? planes / 2 : planes,
-        to.light, from.light);
+    add(context, is_pairs ? "add_pairs_of_light" : "add_light", parameters,
+        is_pairs ? planes / 2 : planes, to.light, from.light);
     return;
   }
   const std::size_t first = floats_before(grid) * sizeof(float);
-  context_.device.timer.add(
+  context.device.timer.add(
       "composite",
-      context_.device.queue.enqueue_copy_buffer(from.light.memory(), to.light.memory(), first,
-                                                first, planes * grid.plane_size * sizeof(float)),
+      context.device.queue.enqueue_copy_buffer(from.light.memory(), to.light.memory(), first, first,
+                                               planes * grid.plane_size * sizeof(float)),
       StageTimer::Kind::serial);
 }
 
-SplatLight LightAdder::add(SplatLight to, SplatLight from) const {
-  for (std::size_t g = 0; g < context_.layout.grids.size(); ++g) {
-    if ((from.planes.used_grids >> g & 1) != 0) add_planes(to.planes, from.planes, g);
+SplatLight add(const StageContext& context, SplatLight to, SplatLight from) {
+  for (std::size_t g = 0; g < context.layout.grids.size(); ++g) {
+    if ((from.planes.used_grids >> g & 1) != 0) add_planes(context, to.planes, from.planes, g);
   }
   to.planes.used_grids |= from.planes.used_grids;
   if (to.cells.size() == 0) {
     to.cells = std::move(from.cells);
   } else if (from.cells.size() > 0) {
     const shared::AddLightParameters cells = {0, 0, static_cast<std::uint32_t>(to.cells.size())};
-    add("add_light", cells, 1, to.cells, from.cells);
+    add(context, "add_light", cells, 1, to.cells, from.cells);
   }
   return to;
 }
 
+}  // namespace
+
 LeafSums::LeafSums(const StageContext& context, std::size_t leaves, const FrameRanks& ranks,
                    const LightTransfer& transfer)
-    : adder_(context),
+    : context_(context),
       leaves_(leaves),
       ranks_(ranks),
       transfer_(transfer),
       own_(leaves_of_rank(leaves, ranks.rank(), ranks.size())) {}
-
-int LeafSums::owner_of(const Node& node) const {
-  return owner_of_leaf(node.first, leaves_, ranks_.size());
-}
-
-void LeafSums::draw(const DrawLeaf& draw_leaf) {
-  if (leaves_ > 0) draw_parts({0, leaves_}, draw_leaf);
-}
 
 void LeafSums::draw_parts(const Node& node, const DrawLeaf& draw_leaf) {
   if (node.end <= own_.first || node.first >= own_.end) return;
@@ -82,11 +79,7 @@ SplatLight LeafSums::draw_node(const Node& node, const DrawLeaf& draw_leaf) cons
   const std::size_t middle = node.first + left_leaves(node.end - node.first);
   SplatLight left = draw_node({node.first, middle}, draw_leaf);
   SplatLight right = draw_node({middle, node.end}, draw_leaf);
-  return adder_.add(std::move(left), std::move(right));
-}
-
-SplatLight LeafSums::join() {
-  return leaves_ > 0 ? join_node({0, leaves_}) : SplatLight();
+  return add(context_, std::move(left), std::move(right));
 }
 
 // A right branch is sent when it is whole, to the rank that has its left one and waits for it.
@@ -99,7 +92,7 @@ SplatLight LeafSums::join_node(const Node& node) {
   const int own = ranks_.rank(), of_left = owner_of(left_node), of_right = owner_of(right_node);
   if (of_left == own) {
     if (of_right != own) right = transfer_.receive(of_right);
-    return adder_.add(std::move(left), std::move(right));
+    return add(context_, std::move(left), std::move(right));
   }
   if (of_right == own) transfer_.send(right, of_left);
   return {};

@@ -39,30 +39,18 @@ void carry_splats(const StageContext& context, const SortedSplats& sorted, std::
 std::vector<std::uint64_t> sort_keys_up_to(const StageContext& context, const KeyedSplats& keyed,
                                            std::uint64_t last) {
   BufferPool& pool = context.device.pool;
-  const auto upper = pool.map_to_read(keyed.keys, keyed.count);
+  const auto upper = pool.download(keyed.keys, keyed.count);
   const bool has_ends = keyed.key_ends.size() > 0;
-  const auto slots = pool.map_to_read(keyed.order, has_ends ? keyed.count : 0);
-  const auto ends = pool.map_to_read(keyed.key_ends, keyed.key_ends.size());
+  const auto slots = pool.download(keyed.order, has_ends ? keyed.count : 0);
+  const auto ends = pool.download(keyed.key_ends, static_cast<std::size_t>(keyed.key_ends.size()));
   std::vector<std::uint64_t> keys;
   for (std::size_t i = 0; i < upper.size(); ++i) {
-    if (upper.data()[i] > last >> 16) continue;
-    const std::uint64_t end = has_ends ? ends.data()[slots.data()[i]] : 0;
-    const std::uint64_t key = std::uint64_t{upper.data()[i]} << 16 | end;
+    if (upper[i] > last >> 16) continue;
+    const std::uint64_t end = has_ends ? ends[slots[i]] : 0;
+    const std::uint64_t key = std::uint64_t{upper[i]} << 16 | end;
     if (key <= last) keys.push_back(key);
   }
   return keys;
-}
-
-Relay::Relay(const StageContext& context, const Projector& projector, const LightTransfer& transfer,
-             FrameRanks& ranks)
-    : context_(context), projector_(projector), transfer_(transfer), ranks_(ranks) {}
-
-int Relay::rank_before() const {
-  return is_first_rank() ? ranks_.size() - 1 : ranks_.rank() - 1;
-}
-
-bool Relay::has_other_before(std::size_t round) const {
-  return ranks_.size() > 1 && (round > 0 || !is_first_rank());
 }
 
 void Relay::pass_splats(const SortedSplats& sorted, std::uint32_t count) {
@@ -86,10 +74,10 @@ void Relay::send_splats(int to) const {
   }
 }
 
-void Relay::pass_round(const SplatLight& light, const SlabLight& slab) {
+void Relay::pass_round(const SplatLight& light) {
   if (ranks_.size() == 1 || !is_last_rank()) return;
   send_splats(0);
-  send(light, slab, 0);
+  transfer_.send(light, 0);
 }
 
 void Relay::take_splats(std::size_t round, const SplatMemory& splats, std::uint32_t count) {
@@ -107,29 +95,10 @@ void Relay::take_splats(std::size_t round, const SplatMemory& splats, std::uint3
   take(extended_, splats.extended, variant.extended_splat_bytes());
 }
 
-void Relay::send(const SplatLight& light, const SlabLight& slab, int to) const {
-  transfer_.send(light, to);
-  if (context_.plan.slabs > 0) transfer_.send(slab, to);
-}
-
-SplatLight Relay::receive(const SlabLight& slab, int from) const {
-  SplatLight light = transfer_.receive(from);
-  if (context_.plan.slabs > 0) transfer_.receive(slab, from);
-  return light;
-}
-
-void Relay::send_on(const SplatLight& light, const SlabLight& slab) const {
-  if (!is_last_rank()) send(light, slab, ranks_.rank() + 1);
-}
-
-SplatLight Relay::receive_light(const SlabLight& slab) const {
-  return receive(slab, rank_before());
-}
-
-SplatLight Relay::bring_home(SplatLight light, const SlabLight& slab) const {
+SplatLight Relay::bring_home(SplatLight light) const {
   if (ranks_.size() == 1) return light;
-  if (is_last_rank()) send(light, slab, 0);
-  return is_first_rank() ? receive(slab, ranks_.size() - 1) : std::move(light);
+  if (is_last_rank()) transfer_.send(light, 0);
+  return is_first_rank() ? receive_light(std::move(light.slab)) : std::move(light);
 }
 
 std::vector<TileBand> relay_bands(const PictureLayout& layout, int ranks) {

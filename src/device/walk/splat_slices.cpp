@@ -1,18 +1,28 @@
 #include "device/walk/splat_slices.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
 
-#include "device/frame/splat_capacity.h"
+#include "device/frame/picture_layout.h"
+#include "device/frame/stage_context.h"
 #include "device/ranks/rank_share.h"
-#include "device/ranks/splat_packets.h"
+#include "device/ranks/transfers.h"
 #include "device/stages/project_parameters.h"
 #include "ranks/exchange.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
+namespace {
+
+bool are_in(const shared::KeyBins& bins, const KeyWindow& window) {
+  return bins.least <= bins.most && bins.most >= window.first >> shift_of_all_keys &&
+         bins.least <= (window.end - 1) >> shift_of_all_keys;
+}
+
+}  // namespace
 
 std::uint64_t splat_capacity(const StageContext& context) {
   return splat_capacity(context.plan, context.variant, context.layout, context.device.traits,
@@ -35,12 +45,12 @@ SplatSlices::SplatSlices(const StageContext& context, const Projector& projector
       projector_(projector),
       particles_(particles),
       ranks_(ranks),
-      counter_(context, projector, particles,
-               particles_of_rank(context.frame, context.device.traits, ranks.rank(), ranks.size())),
-      chunks_of_ranks_(gather_values(ranks.all, counter_.chunks().size())) {
+      chunks_(particles_of_rank(context.frame, context.device.traits, ranks.rank(), ranks.size())),
+      bins_(chunks_.size()),
+      chunks_of_ranks_(gather_values(ranks.all, chunks_.size())) {
   first_chunk_ = std::accumulate(chunks_of_ranks_.begin(), chunks_of_ranks_.begin() + ranks.rank(),
                                  std::uint64_t{0});
-  for (const ParticleChunk& chunk : counter_.chunks())
+  for (const ParticleChunk& chunk : chunks_)
     ranks.work.particles += chunk.count();
 }
 
@@ -63,7 +73,6 @@ bool SplatSlices::has_room_for_all() const {
 void SplatSlices::find_whole() {
   whole_ = project_whole(context_, projector_, particles_);
   counts_ = whole_.particles;
-  blocks_around_ = whole_.particles.chunks_around;
   own_around_ = counts_.around;
   left_out_ = whole_.left_out;
   slices_ = {{{0, 0}, {end_of_keys, 0}, 0, counts_.visible}};
@@ -71,10 +80,8 @@ void SplatSlices::find_whole() {
 
 void SplatSlices::count_keys() {
   const CountedKeys counted = count_everywhere({}, shift_of_all_keys);
-  counts_ = counter_.particles();
   own_around_ = counts_.around;
-  if (own_around_ > 0) blocks_around_ = all_blocks(counter_.chunks(), context_.device.traits);
-  left_out_ = counter_.left_out();
+  if (own_around_ > 0) counts_.chunks_around = all_blocks(chunks_, context_.device.traits);
   add_up(ranks_.all,
          {&counts_.visible, &counts_.bad, &counts_.too_sharp, &counts_.around, &left_out_});
   if (counts_.too_sharp > 0) return;
@@ -85,8 +92,51 @@ void SplatSlices::count_keys() {
       [this](const KeyWindow& window) { return count_chunks(window); });
 }
 
+std::uint64_t SplatSlices::most_splats_of(std::size_t chunk) const {
+  return std::uint64_t{chunks_[chunk].count()} *
+         static_cast<std::uint64_t>(context_.plan.splats_per_particle);
+}
+
+bool SplatSlices::has_keys_in(std::size_t chunk, const KeyWindow& window) const {
+  return std::any_of(bins_[chunk].begin(), bins_[chunk].end(),
+                     [&](const shared::KeyBins& block) { return are_in(block, window); });
+}
+
+Buffer<std::uint32_t> SplatSlices::empty_bins() const {
+  return context_.device.pool.upload(std::vector<std::uint32_t>(KEY_BINS), "counts of keys");
+}
+
+// So many chunks at a time as 32 bits allow.
+CountedKeys SplatSlices::count_here(const KeyWindow& window, int shift) {
+  const bool is_first = window.first == 0 && window.end == end_of_keys;
+  CountedKeys counted{window, shift, std::vector<std::uint64_t>(KEY_BINS)};
+  Buffer<std::uint32_t> bins = empty_bins();
+  std::uint64_t counted_splats = 0;
+  const auto take = [&] {
+    const std::vector<std::uint32_t> found = context_.device.pool.download(bins, KEY_BINS);
+    for (std::size_t bin = 0; bin < found.size(); ++bin)
+      counted.bins[bin] += found[bin];
+  };
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    if (!is_first && !has_keys_in(c, window)) continue;
+    if (counted_splats + most_splats_of(c) > std::numeric_limits<std::uint32_t>::max()) {
+      take();
+      bins = empty_bins();
+      counted_splats = 0;
+    }
+    counted_splats += most_splats_of(c);
+    const ChunkKeys keys = projector_.count_keys(chunks_[c], particles_of(c), window, shift, bins);
+    if (!is_first) continue;
+    bins_[c] = keys.bins;
+    left_out_ += keys.left_out;
+    counts_ += keys.particles;
+  }
+  take();
+  return counted;
+}
+
 CountedKeys SplatSlices::count_everywhere(const KeyWindow& window, int shift) {
-  CountedKeys counted = counter_.count(window, shift);
+  CountedKeys counted = count_here(window, shift);
   ranks_.all.add_up(counted.bins);
   return counted;
 }
@@ -94,8 +144,14 @@ CountedKeys SplatSlices::count_everywhere(const KeyWindow& window, int shift) {
 std::vector<std::uint64_t> SplatSlices::count_chunks(const KeyWindow& window) {
   std::vector<std::uint64_t> counts(static_cast<std::size_t>(
       std::accumulate(chunks_of_ranks_.begin(), chunks_of_ranks_.end(), std::uint64_t{0})));
-  for (std::size_t c = 0; c < counter_.chunks().size(); ++c)
-    counts[static_cast<std::size_t>(first_chunk_) + c] = counter_.count_in_chunk(c, window);
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    if (!has_keys_in(c, window)) continue;
+    const Buffer<std::uint32_t> bins = empty_bins();
+    projector_.count_keys(chunks_[c], particles_of(c), window, shift_of_all_keys, bins);
+    const std::vector<std::uint32_t> found = context_.device.pool.download(bins, KEY_BINS);
+    counts[static_cast<std::size_t>(first_chunk_) + c] =
+        std::accumulate(found.begin(), found.end(), std::uint64_t{0});
+  }
   ranks_.all.add_up(counts);
   return counts;
 }
@@ -138,13 +194,22 @@ KeyedSplats SplatSlices::memory_for(const KeySlice& own, std::uint32_t carried,
   return keyed;
 }
 
+std::uint32_t SplatSlices::project(std::size_t chunk, const KeyWindow& window,
+                                   const KeyedSplats& keyed, std::uint32_t slot) const {
+  // Of each block 1 where it has no keys in the window.
+  std::vector<std::uint32_t> without;
+  for (const shared::KeyBins& block : bins_[chunk])
+    without.push_back(are_in(block, window) ? 0 : 1);
+  return projector_.project_window(chunks_[chunk], particles_of(chunk), window, without, keyed,
+                                   slot);
+}
+
 void SplatSlices::project(const KeySlice& own, KeyedSplats& keyed, std::uint32_t first_slot) const {
   std::uint32_t slot = first_slot;
-  for (std::size_t c = 0; c < counter_.chunks().size(); ++c) {
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
     const KeyWindow window = window_of_chunk(own, c);
-    if (window.first >= window.end || !counter_.has_keys_in(c, window)) continue;
-    slot += projector_.project_window(counter_.chunks()[c], counter_.particles_of(c), window,
-                                      counter_.blocks_without(c, window), keyed, slot);
+    if (window.first < window.end && has_keys_in(c, window))
+      slot += project(c, window, keyed, slot);
   }
   check(slot - first_slot, own.splats);
 }
@@ -154,13 +219,11 @@ std::vector<Communicator::Bytes> SplatSlices::share_out(std::size_t round, std::
   const auto ranks = static_cast<std::size_t>(ranks_.size());
   const KeySlice* const slices = slices_.data() + round * ranks;
   const KeyWindow keys = window_of(slices, ranks);
-  if (chunk >= counter_.chunks().size() || !counter_.has_keys_in(chunk, keys))
+  if (chunk >= chunks_.size() || !has_keys_in(chunk, keys))
     return std::vector<Communicator::Bytes>(ranks);
   const KeyedSplats keyed =
-      projector_.keyed_memory(static_cast<std::uint32_t>(counter_.most_splats_of(chunk)));
-  const std::uint32_t count =
-      projector_.project_window(counter_.chunks()[chunk], counter_.particles_of(chunk), keys,
-                                counter_.blocks_without(chunk, keys), keyed, 0);
+      projector_.keyed_memory(static_cast<std::uint32_t>(most_splats_of(chunk)));
+  const std::uint32_t count = project(chunk, keys, keyed, 0);
   return pack(context_, keyed, count, ranks, [&](std::uint64_t key) {
     return slice_of({key, first_chunk_ + chunk}, slices, ranks);
   });

@@ -4,17 +4,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "device/ranks/rank_work.h"
-#include "device/stages/key_counter.h"
+#include "device/frame/chunks.h"
+#include "device/frame/particle_store.h"
+#include "device/frame/stage_context.h"
+#include "device/ranks/rank_share.h"
+#include "device/stages/project_parameters.h"
 #include "device/stages/projector.h"
 #include "device/walk/key_slices.h"
 
 namespace splotchcl {
 
-// In the memory of the device (splat_capacity.h).
+// In the memory of the device (picture_layout.h).
 std::uint64_t splat_capacity(const StageContext& context);
 
-// All splats of the frame, projected in one piece.
 KeyedSplats project_whole(const StageContext& context, const Projector& projector,
                           ParticleStore& particles);
 
@@ -32,11 +34,10 @@ class SplatSlices {
   // Collective, first of all; waits for the device. Where particles are too sharp for the plan's
   // precision there is nothing to take.
   void find();
-  const ParticleCounts& particles() const { return counts_; }  // of all ranks
-  std::uint64_t left_out() const { return left_out_; }         // blocks out of view, of all ranks
-  // Of this rank's own particles, which may be clouds around the camera, and how many are.
-  const std::vector<ChunkBlocks>& blocks_around() const { return blocks_around_; }
-  std::uint64_t own_around() const { return own_around_; }
+  // Of all ranks; `chunks_around` of this one's.
+  const ParticleCounts& particles() const { return counts_; }
+  std::uint64_t left_out() const { return left_out_; }      // blocks out of view, of all ranks
+  std::uint64_t own_around() const { return own_around_; }  // clouds among this rank's particles
 
   // Of one slice, projected in one piece.
   bool is_whole() const { return capacity_ == 0; }
@@ -56,9 +57,20 @@ class SplatSlices {
   bool has_room_for_all() const;
   void find_whole();
   void count_keys();
+  Buffer<std::uint32_t> empty_bins() const;
+  // Of this rank's chunks, all keys first of all; waits for the device.
+  CountedKeys count_here(const KeyWindow& window, int shift);
   CountedKeys count_everywhere(const KeyWindow& window, int shift);
   std::vector<std::uint64_t> count_chunks(const KeyWindow& window);
   KeyedSplats memory_for(const KeySlice& own, std::uint32_t carried, std::uint32_t more) const;
+  ParticleBuffers particles_of(std::size_t chunk) const {
+    return particles_in_view(context_, particles_, chunks_[chunk]);
+  }
+  std::uint64_t most_splats_of(std::size_t chunk) const;
+  bool has_keys_in(std::size_t chunk, const KeyWindow& window) const;
+  // Puts a chunk's splats of the window from slot `slot` on; how many.
+  std::uint32_t project(std::size_t chunk, const KeyWindow& window, const KeyedSplats& keyed,
+                        std::uint32_t slot) const;
   void project(const KeySlice& own, KeyedSplats& keyed, std::uint32_t first_slot) const;
   void exchange(std::size_t round, const KeyedSplats& keyed, std::uint32_t first_slot);
   std::vector<Communicator::Bytes> share_out(std::size_t round, std::size_t chunk);
@@ -68,11 +80,11 @@ class SplatSlices {
   const Projector& projector_;
   ParticleStore& particles_;
   FrameRanks& ranks_;
-  KeyCounter counter_;
+  const std::vector<ParticleChunk> chunks_;         // this rank's
+  std::vector<std::vector<shared::KeyBins>> bins_;  // of each chunk's blocks: key >> 32
   std::vector<std::uint64_t> chunks_of_ranks_;
   std::uint64_t first_chunk_ = 0;  // number of this rank's first among all
   ParticleCounts counts_;
-  std::vector<ChunkBlocks> blocks_around_;
   std::uint64_t left_out_ = 0, own_around_ = 0;
   std::uint64_t capacity_ = 0;  // of the rank that has least
   std::vector<KeySlice> slices_;

@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "scene/ceil_divide.h"
-#include "scene/plan/blur_filter.h"
-#include "scene/plan/refinement_filter.h"
+#include "scene/plan/grid_filters.h"
 #include "scene/plan/stencil.h"
 
 namespace splotchcl {

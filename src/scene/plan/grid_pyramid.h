@@ -5,10 +5,8 @@
 
 namespace splotchcl {
 
-// The picture's own grid alone.
 GridPyramid make_single_grid(const Frame& frame);
 
-// What a pyramid is made for.
 struct PyramidNeeds {
   float mean_sigma = 0;  // narrower splats need means, which only the picture's own grid knows
   double error = 0;      // of splats on other grids, as a part of their peak

@@ -8,7 +8,7 @@
 
 #include "scene/constants.h"
 #include "scene/peak_color.h"
-#include "scene/plan/cloud_in_picture.h"
+#include "scene/plan/cloud_sample.h"
 #include "scene/plan/light_structure.h"
 #include "scene/statistics.h"
 

@@ -24,7 +24,6 @@ struct OrderedGuess {
   // How many of the splats that could lie on coarse grids are drawn over a pixel of the whole
   // picture, on average. The same for every crop.
   double wide_layers = 0;
-  // Which part of all particles the crop shows.
   double visible_part = 0;
 };
 

@@ -34,7 +34,6 @@ bool is_same_source(double a, double b) {
   return std::abs(a - b) <= roundings * std::max(a, b);
 }
 
-// The one E / A of all components.
 std::optional<double> common_source(const Frame& frame) {
   std::optional<double> common;
   for (const DrawnComponent& component : frame.components) {

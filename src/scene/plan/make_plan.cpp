@@ -133,7 +133,6 @@ std::uint32_t longest_block(const FramePlan& plan) {
   return plan.precision == Precision::fast ? 1024 : 256;
 }
 
-// Everything that follows from the precision, the shares and the needs.
 void set_limits(const Frame& frame, FramePlan& plan) {
   const double background = brightest_background(frame);
   const double source = brightest_source(frame);

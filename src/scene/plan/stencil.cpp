@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "scene/constants.h"
-#include "scene/plan/small_matrix.h"
+#include "scene/plan/grid_filters.h"
 
 namespace splotchcl {
 namespace {
@@ -60,7 +60,6 @@ class BlurredPixels {
     return weights;
   }
 
-  // By how much a pixel differs at most.
   double error_of(const Weights& weights, double place, double sigma) const {
     double largest = 0;
     for (int x = -reach_; x <= reach_; ++x) {
@@ -111,7 +110,6 @@ std::array<double, count> polynomial_through(const std::array<double, count>& no
   return coefficients;
 }
 
-// Of Chebyshev, between -1 and 1.
 template <std::size_t count>
 std::array<double, count> nodes_of() {
   std::array<double, count> nodes{};

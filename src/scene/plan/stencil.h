@@ -9,7 +9,7 @@ namespace splotchcl {
 // narrower Gaussian has (docs/dev/accuracy.md, "Stencils"). So all splats of a grid, whose widths
 // differ by little, take the same number of pixels.
 
-// Of a grid that is blurred by `blur_weights` (blur_filter.h), for splats of sigma from `smallest`
+// Of a grid that is blurred by `blur_weights` (grid_filters.h), for splats of sigma from `smallest`
 // to `largest`, in its pixels. By least squares, such that light is kept.
 Stencil make_stencil(double smallest, double largest, const std::vector<float>& blur_weights);
 

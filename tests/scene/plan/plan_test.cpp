@@ -1,7 +1,7 @@
 #include "splotchcl/plan.h"
 
 #include "reference/frames.h"
-#include "scene/plan/blur_filter.h"
+#include "scene/plan/grid_filters.h"
 #include "testing.h"
 
 namespace splotchcl {

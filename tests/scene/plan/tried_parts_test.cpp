@@ -1,8 +1,6 @@
 // Parts of the tolerance: those that are tried, stencils', and the refinement filter's.
-#include "scene/plan/tried_parts.h"
-
-#include "scene/plan/blur_filter.h"
-#include "scene/plan/refinement_filter.h"
+#include "scene/plan/cloud_sample.h"
+#include "scene/plan/grid_filters.h"
 #include "scene/plan/stencil.h"
 #include "testing.h"
 

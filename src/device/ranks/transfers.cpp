@@ -1,8 +1,11 @@
-#include "device/ranks/splat_packets.h"
+#include "device/ranks/transfers.h"
 
+#include <algorithm>
 #include <cstring>
 #include <numeric>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace splotchcl {
 namespace {
@@ -59,6 +62,23 @@ T take(const Communicator::Bytes& bytes, std::size_t& next) {
   std::memcpy(&value, bytes.data() + next, sizeof(T));
   next += sizeof(T);
   return value;
+}
+
+struct LightHeader {
+  std::uint32_t used_grids = 0;
+  std::uint32_t cells = 0;
+};
+
+// The host holds so many floats at a time.
+constexpr std::uint64_t most_at_once = 16u << 20;
+
+template <class Pass>
+void in_stretches(std::uint64_t first, std::uint64_t count, const Pass& pass) {
+  std::vector<float> floats;
+  for (std::uint64_t done = 0; done < count; done += floats.size()) {
+    floats.resize(static_cast<std::size_t>(std::min(most_at_once, count - done)));
+    pass(floats, first + done);
+  }
 }
 
 }  // namespace
@@ -141,6 +161,77 @@ std::vector<CloudAround> gather_clouds(Communicator& ranks, const std::vector<Cl
     }
   }
   return clouds;
+}
+
+LightTransfer::PassFloats LightTransfer::sending(int to) const {
+  return [this, to](const Buffer<float>& buffer, std::uint64_t first, std::uint64_t count) {
+    in_stretches(first, count, [&](std::vector<float>& floats, std::uint64_t begin) {
+      context_.device.pool.read(buffer, begin, floats.data(), floats.size());
+      ranks_.all.send(floats.data(), floats.size() * sizeof(float), to);
+    });
+    ranks_.work.sent_bytes += count * sizeof(float);
+  };
+}
+
+LightTransfer::PassFloats LightTransfer::receiving(int from) const {
+  return [this, from](const Buffer<float>& buffer, std::uint64_t first, std::uint64_t count) {
+    in_stretches(first, count, [&](std::vector<float>& floats, std::uint64_t begin) {
+      ranks_.all.receive(floats.data(), floats.size() * sizeof(float), from);
+      context_.device.pool.write(buffer, begin, floats.data(), floats.size());
+    });
+  };
+}
+
+void LightTransfer::each_part(const SplatLight& light, const PassFloats& pass) const {
+  for (std::size_t g = 0; g < context_.layout.grids.size(); ++g) {
+    if ((light.planes.used_grids >> g & 1) == 0) continue;
+    const shared::Grid& grid = context_.layout.grids[g];
+    pass(light.planes.light, floats_before(grid),
+         std::uint64_t{context_.variant.planes()} * grid.plane_size);
+  }
+  for (const Buffer<float>* floats : {&light.cells, &light.slab.before, &light.slab.errors})
+    pass(*floats, 0, floats->size());
+}
+
+void LightTransfer::each_part(const Rows& rows, const TileBand& tiles,
+                              const PassFloats& pass) const {
+  const shared::Grid& grid = context_.layout.grids.front();
+  const auto across = static_cast<std::uint32_t>(grid.tiles_x);
+  const std::uint64_t row = std::uint64_t{grid.stride} * context_.variant.tile_height;
+  for (std::uint32_t plane = 0; plane < context_.variant.planes(); ++plane) {
+    pass(rows.planes.light,
+         floats_before(grid) + std::uint64_t{plane} * grid.plane_size + tiles.first / across * row,
+         (tiles.end - tiles.first) / across * row);
+  }
+  pass(rows.cells, std::uint64_t{tiles.first} * rows.cells_per_tile,
+       std::uint64_t{tiles.end - tiles.first} * rows.cells_per_tile);
+}
+
+void LightTransfer::send(const SplatLight& light, int to) const {
+  const LightHeader header = {light.planes.used_grids,
+                              static_cast<std::uint32_t>(light.cells.size())};
+  ranks_.all.send(&header, sizeof(header), to);
+  each_part(light, sending(to));
+}
+
+SplatLight LightTransfer::receive(int from, SlabLight slab) const {
+  LightHeader header;
+  ranks_.all.receive(&header, sizeof(header), from);
+  SplatLight light;
+  light.planes = compositor_.start();
+  light.planes.used_grids = header.used_grids;
+  if (header.cells > 0) light.cells = context_.device.pool.get<float>(header.cells, "peak cells");
+  light.slab = std::move(slab);
+  each_part(light, receiving(from));
+  return light;
+}
+
+void LightTransfer::send(const Rows& rows, const TileBand& tiles, int to) const {
+  each_part(rows, tiles, sending(to));
+}
+
+void LightTransfer::receive(const Rows& rows, const TileBand& tiles, int from) const {
+  each_part(rows, tiles, receiving(from));
 }
 
 }  // namespace splotchcl

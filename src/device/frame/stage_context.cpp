@@ -1,6 +1,13 @@
-#include "device/frame/component_colors.h"
+#include "device/frame/stage_context.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
+
+#include "device/frame/shared.h"
+#include "device/frame/variant.h"
+#include "device/opencl/launch.h"
+#include "scene/ceil_divide.h"
 
 namespace splotchcl {
 namespace {
@@ -38,8 +45,6 @@ void set_summed(LightPlan light, shared::ComponentColors& entry) {
   entry.summed_scale = by_factor ? entry.absorption_factor : entry.brightness;
 }
 
-}  // namespace
-
 ComponentColorTable upload_component_colors(const Frame& frame, LightPlan light, BufferPool& pool) {
   std::vector<shared::ComponentColors> components;
   std::vector<float> knots;
@@ -59,6 +64,52 @@ ComponentColorTable upload_component_colors(const Frame& frame, LightPlan light,
   // Behind the last knot of a palette the kernels look at one more, of which they take nothing.
   knots.insert(knots.end(), KNOT_FLOATS, 0.0f);
   return {pool.upload(components, "component colors"), pool.upload(knots, "palette knots")};
+}
+
+// Below it a thread is done before others have begun.
+constexpr std::uint64_t least_shared_bytes = std::uint64_t{1} << 20;
+
+void clear_together(DeviceContext& device, const char* stage, const compute::buffer& memory,
+                    std::uint64_t first, std::uint64_t bytes) {
+  // As many words as a parameter can count.
+  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 33;
+  const std::uint64_t step = std::min(bytes, most_bytes), word = first / 4;
+  const shared::ClearParameters parameters = {static_cast<std::uint32_t>(word),
+                                              static_cast<std::uint32_t>(word >> 32),
+                                              static_cast<std::uint32_t>(step / 4)};
+  const std::size_t items = ceil_divide<std::size_t>(parameters.words, CLEARED_WORDS);
+  Launch(device, stage,
+         device.programs.get(program_source("kernels/common/clear.cl")).create_kernel("clear"))
+      .value(parameters)
+      .arg(memory)
+      .run_items(items);
+  if (step < bytes) clear_together(device, stage, memory, first + step, bytes - step);
+}
+
+}  // namespace
+
+StageContext::StageContext(DeviceContext& on, const Frame& of, const FramePlan& with)
+    : device(on),
+      frame(of),
+      plan(with),
+      variant(of, with, on.traits),
+      layout(make_picture_layout(of, with, variant)),
+      grids(on.pool.upload(all_grids(layout), "grids")),
+      stencils(on.pool.upload(stencils_of_blurs(with.pyramid), "stencils")),
+      colors(upload_component_colors(of, with.light, on.pool)) {}
+
+void clear_memory(DeviceContext& device, const char* stage, const compute::buffer& memory,
+                  std::uint64_t first, std::uint64_t bytes) {
+  if (device.traits.clears_in_pieces && bytes >= least_shared_bytes) {
+    clear_together(device, stage, memory, first, bytes);
+    return;
+  }
+  const cl_uint zero = 0;
+  device.timer.add(
+      stage,
+      device.queue.enqueue_fill_buffer(memory, &zero, sizeof(zero), static_cast<std::size_t>(first),
+                                       static_cast<std::size_t>(bytes)),
+      StageTimer::Kind::serial);
 }
 
 }  // namespace splotchcl
