@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "formats/snapshot_format.h"
+#include "fuzz/targets.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
 

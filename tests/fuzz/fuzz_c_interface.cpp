@@ -181,7 +181,7 @@ class Caller {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_c_interface(const std::uint8_t* data, std::size_t size) {
   constexpr int most_calls = 64;
   Choices choices(data, size);
   Caller caller;

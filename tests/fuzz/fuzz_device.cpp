@@ -32,7 +32,7 @@ splotchcl::FrameDrawer& drawer() {
 }  // namespace
 
 // The first byte chooses the scene, what follows is floats: five for each particle.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_device(const std::uint8_t* data, std::size_t size) {
   using namespace splotchcl;
   constexpr std::size_t floats_per_particle = 5, most_particles = 64;
   if (size < 1 + floats_per_particle * sizeof(float)) return 0;

@@ -38,7 +38,7 @@ FormulaSources sources() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_formula(const std::uint8_t* data, std::size_t size) {
   try {
     const Formula formula = with_converted_numbers(
         Formula::parse(std::string(reinterpret_cast<const char*>(data), size), "fuzz"),

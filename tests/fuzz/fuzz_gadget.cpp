@@ -1,6 +1,6 @@
 #include "fuzz/fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_gadget(const std::uint8_t* data, std::size_t size) {
   splotchcl::fuzz::write_scratch(data, size);
   splotchcl::fuzz::read_as(splotchcl::gadget_binary_format());
   return 0;

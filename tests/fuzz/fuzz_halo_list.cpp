@@ -2,7 +2,7 @@
 #include "fuzz/fuzz.h"
 
 // Lists of haloes as text, of AHF and Rockstar by their names.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_halo_list(const std::uint8_t* data, std::size_t size) {
   using namespace splotchcl;
   for (const char* const ending : {".AHF_particles", ".AHF_halos", ".particles", ".list"}) {
     std::filesystem::path list = fuzz::scratch_file();

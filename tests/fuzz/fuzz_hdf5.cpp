@@ -186,7 +186,7 @@ void read_haloes() {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_hdf5(const std::uint8_t* data, std::size_t size) {
   const Hdf5Silence silence;
   {
     const Hdf5Output file = create_hdf5(fuzz::scratch_file());

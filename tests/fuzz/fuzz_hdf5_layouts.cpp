@@ -187,7 +187,7 @@ void read_group(const char* group) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_hdf5_layouts(const std::uint8_t* data, std::size_t size) {
   const Hdf5Silence silence;
   Plan plan(data, size);
   write_file(plan);

@@ -2,7 +2,7 @@
 #include "fuzz/fuzz.h"
 #include "splotchcl/image_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_image(const std::uint8_t* data, std::size_t size) {
   using namespace splotchcl;
   constexpr const char* endings[] = {".png", ".exr", ".tif", ".hdr",
                                      ".jpg", ".bmp", ".ppm", ".tga"};

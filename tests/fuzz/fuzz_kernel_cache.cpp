@@ -3,7 +3,7 @@
 #include "device/opencl/binary_cache.h"
 #include "fuzz/fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_kernel_cache(const std::uint8_t* data, std::size_t size) {
   using splotchcl::BinaryCache;
   const std::filesystem::path folder =
       splotchcl::fuzz::scratch_file().parent_path() / "kernel_cache";

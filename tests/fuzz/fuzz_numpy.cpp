@@ -1,6 +1,6 @@
 #include "fuzz/fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_numpy(const std::uint8_t* data, std::size_t size) {
   using namespace splotchcl;
   fuzz::write_scratch(data, size);
   fuzz::read_as(numpy_format());

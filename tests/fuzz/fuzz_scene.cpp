@@ -3,7 +3,7 @@
 
 // The first line is a setting, the rest a scene file. A scene that is read must come back the
 // same from what is written of it.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_scene(const std::uint8_t* data, std::size_t size) {
   using namespace splotchcl;
   const std::string input(reinterpret_cast<const char*>(data), size);
   const std::size_t end = input.find('\n');

@@ -3,7 +3,7 @@
 #include "fuzz/fuzz.h"
 
 // An array beside a sound Tipsy file of three gas particles: as quantities, and as identifiers.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int splotchcl::fuzz::fuzz_tipsy_array(const std::uint8_t* data, std::size_t size) {
   using namespace splotchcl;
   std::vector<std::uint8_t> snapshot(32 + 3 * 48, 0);
   for (const std::size_t place : {8U, 12U, 16U})  // particles, dimensions, gas
