@@ -144,16 +144,21 @@ float* convert(const StoredValues& part, const Vec3& origin, std::size_t begin, 
 // The values of files that are mapped, one file after the other.
 struct StoredColumn {
   std::vector<StoredValues> parts;  // none of them empty
+  std::vector<std::size_t> ends;    // behind each part's values
   Vec3 origin;
-  std::size_t size = 0;
+
+  std::size_t size() const { return ends.empty() ? 0 : ends.back(); }
 
   void make(std::size_t begin, std::size_t end, float* out) const {
-    std::size_t first = 0;  // value of the part
-    for (const StoredValues& part : parts) {
-      const std::size_t count = number_of_values(part);
-      const std::size_t from = std::max(begin, first), to = std::min(end, first + count);
-      if (from < to) out = convert(part, origin, from - first, to - first, out);
-      first += count;
+    // Single values are asked for, too, of snapshots of many files.
+    auto part =
+        static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), begin) - ends.begin());
+    while (begin < end) {
+      const std::size_t first = part == 0 ? 0 : ends[part - 1];
+      const std::size_t to = std::min(end, ends[part]);
+      out = convert(parts[part], origin, begin - first, to - first, out);
+      begin = to;
+      ++part;
     }
   }
 };
@@ -165,7 +170,7 @@ StoredColumn stored_column(const std::vector<StoredValues>& parts, const Vec3& o
     if (part.particles == 0) continue;
     part.file->check_size();
     column.parts.push_back(part);
-    column.size += number_of_values(part);
+    column.ends.push_back(column.size() + number_of_values(part));
   }
   return column;
 }
@@ -176,11 +181,19 @@ std::optional<Column> in_place(const StoredColumn& column) {
   const StoredValues& part = column.parts.front();
   if (!can_point_into_file(part)) return std::nullopt;
   const std::byte* const first = part.file->data() + part.offset;
-  return Column(part.file, reinterpret_cast<const float*>(first), column.size);
+  return Column(part.file, reinterpret_cast<const float*>(first), column.size());
+}
+
+// Files that hold what is wanted, one after the other: a copy would serve frames that follow, and
+// make the first wait.
+bool is_better_left(const StoredColumn& column) {
+  constexpr std::size_t most_copied_bytes = std::size_t{256} << 20;
+  return column.size() * sizeof(float) > most_copied_bytes && column.origin == zero &&
+         std::all_of(column.parts.begin(), column.parts.end(), can_point_into_file);
 }
 
 Column converted(StoredColumn column, bool is_streamed) {
-  const std::size_t size = column.size;
+  const std::size_t size = column.size();
   return make_column(size, is_streamed,
                      [column = std::move(column)](std::size_t begin, std::size_t end, float* out) {
                        column.make(begin, end, out);
@@ -214,7 +227,8 @@ double number_at(const std::shared_ptr<const MappedFile>& file, std::uint64_t of
 Column make_column(const std::vector<StoredValues>& parts, const Vec3& origin) {
   StoredColumn column = stored_column(parts, origin);
   if (const auto mapped = in_place(column)) return *mapped;
-  const bool is_streamed = is_too_large_to_copy(column.size * sizeof(float));
+  const bool is_streamed =
+      is_too_large_to_copy(column.size() * sizeof(float)) || is_better_left(column);
   return converted(std::move(column), is_streamed);
 }
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdint>
+#include <utility>
 
 #include "scene/ceil_divide.h"
 #include "scene/particle_columns.h"
@@ -53,6 +54,13 @@ void make_pages(void* memory, std::size_t bytes) {
 #ifdef MADV_POPULATE_WRITE
   advise_whole_pages(memory, bytes, MADV_POPULATE_WRITE);
 #endif
+}
+
+Column owning_column(LargeVector<float> values) {
+  auto owner = std::make_shared<const LargeVector<float>>(std::move(values));
+  const float* const data = owner->data();
+  const std::size_t size = owner->size();
+  return Column(std::move(owner), data, size);
 }
 
 }  // namespace splotchcl

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <new>
+#include <vector>
 
 #include "splotchcl/particles.h"
 
@@ -24,5 +27,41 @@ void expect_all_written(void* memory, std::size_t bytes);
 // The same of memory that is about to be written to by one thread: the system clears it now, on
 // whatever threads call this for parts of it.
 void make_pages(void* memory, std::size_t bytes);
+
+// For arrays that are written whole: long ones lie on pages of 2 MiB.
+template <class T>
+struct LargePageAllocator {
+  using value_type = T;
+  static constexpr std::size_t page_bytes = std::size_t{2} << 20;
+
+  LargePageAllocator() = default;
+  template <class U>
+  LargePageAllocator(const LargePageAllocator<U>&) {}
+
+  T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    if (!is_long(count)) return static_cast<T*>(::operator new(bytes));
+    void* const memory = ::operator new (bytes, std::align_val_t{page_bytes});
+    expect_all_written(memory, bytes);
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* memory, std::size_t count) {
+    if (is_long(count)) {
+      ::operator delete (memory, std::align_val_t{page_bytes});
+    } else {
+      ::operator delete(memory);
+    }
+  }
+  friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
+  friend bool operator!=(const LargePageAllocator&, const LargePageAllocator&) { return false; }
+
+ private:
+  static bool is_long(std::size_t count) { return count * sizeof(T) >= 2 * page_bytes; }
+};
+template <class T>
+using LargeVector = std::vector<T, LargePageAllocator<T>>;
+
+// These values, one after the other.
+Column owning_column(LargeVector<float> values);
 
 }  // namespace splotchcl

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <utility>
 
+#include "scene/memory_advice.h"
 #include "splotchcl/particles.h"
 
 namespace splotchcl {
@@ -168,12 +169,12 @@ namespace {
 // Of places from `first` on, those that are read together: many, and from the least to the largest
 // of them it is no farther than a look at each of them takes. Else the first alone.
 std::size_t end_of_run(const std::vector<std::uint64_t>& places, std::size_t first,
-                       std::uint64_t& from, std::uint64_t& to) {
+                       std::size_t last, std::uint64_t& from, std::uint64_t& to) {
   constexpr std::uint64_t values_per_look = 16, longest = 65536;
   constexpr std::size_t fewest = 16;
   from = to = places[first];
   std::size_t end = first + 1;
-  while (end < places.size()) {
+  while (end < last) {
     const std::uint64_t least = std::min(from, places[end]), largest = std::max(to, places[end]);
     if (largest - least > std::min<std::uint64_t>(longest, values_per_look * (end - first))) break;
     from = least;
@@ -186,11 +187,12 @@ std::size_t end_of_run(const std::vector<std::uint64_t>& places, std::size_t fir
 }
 
 void pick_from_source(const ColumnSource& source, std::size_t width,
-                      const std::vector<std::uint64_t>& places, float* to) {
+                      const std::vector<std::uint64_t>& places, std::size_t first, std::size_t last,
+                      float* to) {
   std::vector<float> run;
-  for (std::size_t next = 0; next < places.size();) {
+  for (std::size_t next = first; next < last;) {
     std::uint64_t least = 0, largest = 0;
-    const std::size_t end = end_of_run(places, next, least, largest);
+    const std::size_t end = end_of_run(places, next, last, least, largest);
     run.resize(width * static_cast<std::size_t>(largest - least + 1));
     source.make(width * static_cast<std::size_t>(least),
                 width * static_cast<std::size_t>(largest + 1), run.data());
@@ -199,32 +201,37 @@ void pick_from_source(const ColumnSource& source, std::size_t width,
   }
 }
 
-Column picked(const Column& column, std::size_t width, const std::vector<std::uint64_t>& places) {
+Column picked(const Column& column, std::size_t width, const std::vector<std::uint64_t>& places,
+              const RunBlocks& run) {
   if (!column.is_array() || column.size() == 0) return column;
   const auto source = column.source();
-  std::vector<float> values(width * places.size());
-  if (source) {
-    pick_from_source(*source, width, places, values.data());
-  } else {
-    float* to = values.data();
-    for (const std::uint64_t place : places)
-      to = std::copy_n(column.data() + width * static_cast<std::size_t>(place), width, to);
-  }
-  return Column::owning(std::move(values));
+  LargeVector<float> values(width * places.size());
+  constexpr std::size_t block = std::size_t{1} << 16;
+  run(places.size(), block, [&](std::size_t first, std::size_t last) {
+    float* to = values.data() + width * first;
+    if (source) {
+      pick_from_source(*source, width, places, first, last, to);
+      return;
+    }
+    for (std::size_t i = first; i < last; ++i)
+      to = std::copy_n(column.data() + width * static_cast<std::size_t>(places[i]), width, to);
+  });
+  return owning_column(std::move(values));
 }
 
 }  // namespace
 
-Particles picked_particles(const Particles& particles, const std::vector<std::uint64_t>& places) {
+Particles picked_particles(const Particles& particles, const std::vector<std::uint64_t>& places,
+                           const RunBlocks& run) {
   Particles some = particles;
   some.count = places.size();
   some.boxes = nullptr;
   some.tree = nullptr;
   for (Column* const column : {&some.position, &some.color_vector})
-    *column = picked(*column, 3, places);
+    *column = picked(*column, 3, places, run);
   for (Column* const column :
        {&some.smoothing_length, &some.weight, &some.color, &some.intensity, &some.sort_field})
-    *column = picked(*column, 1, places);
+    *column = picked(*column, 1, places, run);
   return some;
 }
 

@@ -158,8 +158,17 @@ Column gather_in_order(const Column& column, std::size_t width, std::size_t coun
 // other column can have come to lie there. No value is made. Origins and boxes are not compared.
 bool have_same_columns(const Particles& known, const Particles& particles);
 
+// Calls work(first, last) for the blocks of [0, count), perhaps on several threads.
+using RunBlocks = std::function<void(std::size_t count, std::size_t block,
+                                     const std::function<void(std::size_t, std::size_t)>& work)>;
+inline void run_as_one(std::size_t count, std::size_t,
+                       const std::function<void(std::size_t, std::size_t)>& work) {
+  work(0, count);
+}
+
 // The particles at these places, in memory. Values that are made when they are wanted are made for
 // these alone, particle by particle.
-Particles picked_particles(const Particles& particles, const std::vector<std::uint64_t>& places);
+Particles picked_particles(const Particles& particles, const std::vector<std::uint64_t>& places,
+                           const RunBlocks& run = run_as_one);
 
 }  // namespace splotchcl

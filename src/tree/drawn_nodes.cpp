@@ -1,31 +1,40 @@
 #include "tree/drawn_nodes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "parallel/for_blocks.h"
 #include "scene/particle_columns.h"
 #include "tree/node_bytes.h"
 
 namespace splotchcl {
 
-void DrawnNodes::add_node(const TreePart& part, const TreeItem& item, std::size_t level,
-                          const WeighedNode& weighed) {
+DrawnNodes::DrawnNodes(std::size_t nodes, std::size_t particles)
+    : position_(3 * nodes),
+      smoothing_length_(nodes),
+      weight_(nodes),
+      color_(3 * nodes),
+      particles_(particles) {}
+
+void DrawnNodes::set_node(std::size_t i, const TreePart& part, const TreeItem& item,
+                          std::size_t level, const WeighedNode& weighed) {
   const TreeOfType& tree = part.tree();
   const TreeNode& node = tree.levels[level].nodes[item.node];
   const Vec3 place = place_of(part, item, level, 0).value_or(Vec3{{0, 0, 0}});
   const Vec3& origin = part.drawn->particles.origin;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    position_.push_back(static_cast<float>(place.a[axis] - origin.a[axis]));
+    position_[3 * i + axis] = static_cast<float>(place.a[axis] - origin.a[axis]);
   const double deviation = length_of_bits(node.deviation) * tree.side;
   const double own = length_of_bits(node.size) * part.deviation_per_h * tree.side;
   const double h = std::sqrt(deviation * deviation + own * own) / part.deviation_per_h;
-  smoothing_length_.push_back(static_cast<float>(h));
+  smoothing_length_[i] = static_cast<float>(h);
   const double flux = static_cast<double>(node.flux);
   const double weight = part.drawn->weight == WeightModel::mass       ? flux
                         : part.drawn->weight == WeightModel::constant ? flux / h
                                                                       : flux / (h * h * h);
-  weight_.push_back(static_cast<float>(weight));
-  color_.insert(color_.end(), weighed.color.begin(), weighed.color.end());
+  weight_[i] = static_cast<float>(weight);
+  std::copy(weighed.color.begin(), weighed.color.end(), &color_[3 * i]);
 }
 
 DrawnComponent DrawnNodes::nodes(const DrawnComponent& component) {
@@ -36,17 +45,20 @@ DrawnComponent DrawnNodes::nodes(const DrawnComponent& component) {
   Particles particles;
   particles.count = smoothing_length_.size();
   particles.origin = component.particles.origin;
-  particles.position = Column::owning(std::move(position_));
-  particles.smoothing_length = Column::owning(std::move(smoothing_length_));
-  particles.weight = Column::owning(std::move(weight_));
-  particles.color_vector = Column::owning(std::move(color_));
+  particles.position = owning_column(std::move(position_));
+  particles.smoothing_length = owning_column(std::move(smoothing_length_));
+  particles.weight = owning_column(std::move(weight_));
+  particles.color_vector = owning_column(std::move(color_));
   merged.particles = std::move(particles);
   return merged;
 }
 
 DrawnComponent DrawnNodes::particles(const DrawnComponent& component) const {
   DrawnComponent loose = component;
-  loose.particles = picked_particles(component.particles, particles_);
+  const auto on_all_cores = [](std::size_t count, std::size_t block, const auto& work) {
+    for_blocks(count, block, work);
+  };
+  loose.particles = picked_particles(component.particles, particles_, on_all_cores);
   return loose;
 }
 

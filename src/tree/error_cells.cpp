@@ -46,6 +46,13 @@ std::size_t ErrorCells::parent(int scale, std::size_t cell) const {
   return cell / columns / 2 * wider + cell % columns / 2;
 }
 
+void ErrorCells::add(const ErrorCells& others) {
+  for (std::size_t s = 0; s < grids_.size(); ++s) {
+    for (std::size_t cell = 0; cell < grids_[s].values.size(); ++cell)
+      grids_[s].values[cell] += others.grids_[s].values[cell];
+  }
+}
+
 CellNumbers ErrorCells::totals_with(bool of_largest) const {
   CellNumbers within(grids_.size()), around(grids_.size());
   for (std::size_t s = 0; s < grids_.size(); ++s) {

@@ -30,6 +30,9 @@ class ErrorCells {
   double& at(int scale, std::size_t cell) { return grid(scale).values[cell]; }
   double at(int scale, std::size_t cell) const { return grid(scale).values[cell]; }
 
+  // Those of others over the same picture.
+  void add(const ErrorCells& others);
+
   // Of each cell: its own value, those of all larger cells around it, and the largest sum of
   // smaller ones within it.
   CellNumbers totals() const;

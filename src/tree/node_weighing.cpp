@@ -1,6 +1,7 @@
 #include "tree/node_weighing.h"
 
 #include <algorithm>
+#include <bitset>
 #include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 
@@ -57,6 +58,8 @@ WeighedNode NodeWeigher::weigh(const TreePart& part, const TreeItem& item,
       tree.side * part.deviation_per_h * std::sqrt(2.0) * smoothing_of_bits(node.widest);
   WeighedNode weighed;
   weighed.fate = NodeFate::open;
+  weighed.children =
+      static_cast<std::uint8_t>(std::bitset<8>(tree.levels[level].children[item.node]).count());
   const auto place = place_of(part, item, level, reach);
   if (!place) return weighed;
   using namespace boost::qvm;

@@ -22,6 +22,7 @@ struct WeighedNode {
   std::uint32_t cell = 0;  // of its scale
   std::uint8_t scale = 0;
   NodeFate fate = NodeFate::unseen;
+  std::uint8_t children = 0;
   std::array<float, 3> color{};
 };
 

@@ -1,12 +1,14 @@
 #include "tree/tree_cut.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
+#include "scene/memory_advice.h"
 #include "splotchcl/error.h"
 #include "splotchcl/frame_check.h"
 #include "tree/drawn_nodes.h"
@@ -18,13 +20,31 @@
 namespace splotchcl {
 namespace {
 
-// Of one level of one part, in Morton order.
-struct Frontier {
-  std::size_t part = 0;
-  std::vector<TreeItem> items;
-  std::vector<WeighedNode> weighed;
+// Nodes of one level of one part that were looked at so far. They stay from pass to pass, those of
+// a later pass behind those of the ones before.
+struct KnownLevel {
+  LargeVector<TreeItem> items;
+  LargeVector<WeighedNode> weighed;
+  LargeVector<std::uint32_t> first_children;  // in the next level
 };
-using Level = std::vector<Frontier>;
+constexpr std::uint32_t unknown = 0xffffffff;  // not looked at
+
+// Of one part. A pass goes from level to level.
+struct Walk {
+  std::size_t part = 0;
+  std::vector<KnownLevel> levels;
+  LargeVector<std::uint32_t> reached;   // by the pass: of one level, in Morton order
+  LargeVector<std::uint8_t> is_opened;  // of these
+};
+
+// What is drawn of one level of one part: nodes, and those whose loose particles are, in Morton
+// order, as they lie among the known ones.
+struct DrawnLevel {
+  std::size_t part = 0, level = 0;
+  LargeVector<std::uint32_t> kept, opened;
+  LargeVector<std::uint64_t> behind;                 // the place behind each opened one's particles
+  std::uint64_t first_node = 0, first_particle = 0;  // among the component's
+};
 
 bool has_sums(const Frame& frame) {
   return std::all_of(frame.components.begin(), frame.components.end(),
@@ -53,6 +73,11 @@ struct Sums {
                                        std::sqrt(static_cast<double>(node.largest2)) /
                                        (pixels * pixels);
   }
+  void add(const Sums& others) {
+    errors.add(others.errors);
+    alike.add(others.alike);
+    light.add(others.light);
+  }
   static void add_light(const WeighedNode& node, ErrorCells& light) {
     const double pixels = light.pixels(node.scale);
     light.at(node.scale, node.cell) += static_cast<double>(node.light) / (pixels * pixels);
@@ -72,152 +97,224 @@ class Cutter {
         parts_(tree_parts(frame)),
         sums_(frame.crop),
         weigher_(frame, regions_, sums_.errors, settings.only_counts),
-        limits_(settings.error, has_sums(frame)) {}
+        limits_(settings.error, has_sums(frame)),
+        nodes_(frame.components.size(), 0),
+        particles_(frame.components.size(), 0) {}
 
   TreeCut cut() {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      if (parts_[p].tree().levels.empty()) continue;
+      walks_.emplace_back();
+      walks_.back().part = p;
+      look_at_root(walks_.back());
+    }
     for (int pass = 0; pass < settings_.corrections; ++pass) {
-      look_at_all();
+      walk();
       limits_.correct(sums_.errors);
-      sums_ = Sums(frame_.crop);
     }
     draws_ = true;
-    nodes_.resize(frame_.components.size());
-    look_at_all();
+    walk();
     return finished();
   }
 
  private:
+  void look_at_root(Walk& walk) {
+    KnownLevel root;
+    root.items.emplace_back();
+    root.weighed.push_back(weigher_.weigh(parts_[walk.part], root.items[0], 0));
+    root.first_children.push_back(unknown);
+    ++visited_;
+    walk.levels.push_back(std::move(root));
+  }
+
   // From the roots on, level by level.
-  void look_at_all() {
-    std::vector<Level> seen;
-    Level level;
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      if (!parts_[p].tree().levels.empty()) level.push_back({p, {TreeItem{}}, {}});
-    }
-    for (std::size_t number = 0; !level.empty(); ++number) {
-      for (Frontier& frontier : level)
-        weigh(frontier, number);
+  void walk() {
+    sums_ = Sums(frame_.crop);
+    for (Walk& walk : walks_)
+      walk.reached.assign(1, 0);
+    for (std::size_t level = 0;; ++level) {
+      if (std::all_of(walks_.begin(), walks_.end(),
+                      [](const Walk& walk) { return walk.reached.empty(); }))
+        return;
       see_light(level);
-      Level next;
-      for (const Frontier& frontier : level) {
-        Frontier opened = take(frontier, number);
-        if (!opened.items.empty()) next.push_back(std::move(opened));
+      for (Walk& walk : walks_) {
+        if (walk.reached.empty()) continue;
+        decide(walk, level);
+        if (draws_) note_drawn(walk, level);
+        reach_children(walk, level);
       }
-      if (!draws_) seen.push_back(std::move(level));
-      level = std::move(next);
     }
-    seen_ = std::move(seen);
   }
 
-  void weigh(Frontier& frontier, std::size_t level) {
-    frontier.weighed.resize(frontier.items.size());
-    const TreePart& part = parts_[frontier.part];
-    const Frontier* const before = seen_before(frontier.part, level);
-    std::atomic<std::uint64_t> visited{0};
-    for_blocks(frontier.items.size(), 1024, [&](std::size_t first, std::size_t last) {
-      std::uint64_t own = 0;
-      std::size_t known = before == nullptr ? 0 : place_in(*before, frontier.items[first].node);
-      for (std::size_t i = first; i < last; ++i) {
-        const TreeItem& item = frontier.items[i];
-        while (before != nullptr && known < before->items.size() &&
-               before->items[known].node < item.node)
-          ++known;
-        const bool is_known = before != nullptr && known < before->items.size() &&
-                              before->items[known].node == item.node;
-        if (!is_known) ++own;
-        frontier.weighed[i] = is_known ? before->weighed[known] : weigher_.weigh(part, item, level);
-      }
-      visited += own;
-    });
-    visited_ += visited;
-    constexpr std::uint64_t flags = 2;  // of children and loose particles
-    bytes_ +=
-        visited * (sizeof(TreeNode) + flags + part.tree().fields.size() * sizeof(SampledField));
-  }
-
-  // What the pass before looked at.
-  const Frontier* seen_before(std::size_t part, std::size_t level) const {
-    if (level >= seen_.size()) return nullptr;
-    const auto found = std::find_if(seen_[level].begin(), seen_[level].end(),
-                                    [part](const Frontier& f) { return f.part == part; });
-    return found == seen_[level].end() ? nullptr : &*found;
-  }
-  static std::size_t place_in(const Frontier& frontier, std::uint32_t node) {
-    const auto found = std::lower_bound(
-        frontier.items.begin(), frontier.items.end(), node,
-        [](const TreeItem& item, std::uint32_t number) { return item.node < number; });
-    return static_cast<std::size_t>(found - frontier.items.begin());
-  }
-
-  void see_light(const Level& level) {
+  void see_light(std::size_t level) {
     ErrorCells light = sums_.light;
-    for (const Frontier& frontier : level) {
-      for (const WeighedNode& node : frontier.weighed) {
+    for (const Walk& walk : walks_) {
+      for (const std::uint32_t i : walk.reached) {
+        const WeighedNode& node = walk.levels[level].weighed[i];
         if (node.fate == NodeFate::weighed) Sums::add_light(node, light);
       }
     }
     limits_.see(light);
   }
 
-  Frontier take(const Frontier& frontier, std::size_t level) {
-    Frontier next{frontier.part, {}, {}};
-    next.items.reserve(4 * frontier.items.size());
-    for (std::size_t i = 0; i < frontier.items.size(); ++i) {
-      const WeighedNode& node = frontier.weighed[i];
-      if (node.fate == NodeFate::unseen) continue;
-      if (node.fate == NodeFate::weighed && limits_.keeps(node, sums_.errors)) {
-        keep(frontier, i, level);
-      } else {
-        open(parts_[frontier.part], frontier.items[i], level, next.items);
+  // Sums are those of a fixed number of stretches, so that they are the same on any number of
+  // threads.
+  void decide(Walk& walk, std::size_t level) {
+    constexpr std::size_t stretches = 8, fewest = 4096;
+    const std::size_t count = walk.reached.size();
+    const std::size_t stretch = std::max(fewest, ceil_divide(count, stretches));
+    std::vector<Sums> sums(ceil_divide(count, stretch), Sums(frame_.crop));
+    walk.is_opened.resize(count);
+    for_blocks(count, stretch, [&](std::size_t first, std::size_t last) {
+      Sums& own = sums[first / stretch];
+      for (std::size_t r = first; r < last; ++r) {
+        const WeighedNode& node = walk.levels[level].weighed[walk.reached[r]];
+        const bool is_kept = node.fate == NodeFate::weighed && limits_.keeps(node, sums_.errors);
+        if (is_kept) own.add(node);
+        walk.is_opened[r] = !is_kept && node.fate != NodeFate::unseen;
+      }
+    });
+    for (const Sums& own : sums)
+      sums_.add(own);
+  }
+
+  void note_drawn(const Walk& walk, std::size_t level) {
+    DrawnLevel drawn;
+    drawn.part = walk.part;
+    drawn.level = level;
+    const std::size_t component = parts_[walk.part].component;
+    drawn.first_node = nodes_[component];
+    drawn.first_particle = particles_[component];
+    const TreeLevel& of_tree = parts_[walk.part].tree().levels[level];
+    for (std::size_t r = 0; r < walk.reached.size(); ++r) {
+      const std::uint32_t i = walk.reached[r];
+      if (walk.is_opened[r] == 0) {
+        if (walk.levels[level].weighed[i].fate != NodeFate::unseen) drawn.kept.push_back(i);
+      } else if (const unsigned loose = of_tree.loose[walk.levels[level].items[i].node]) {
+        drawn.opened.push_back(i);
+        drawn.behind.push_back(particles_[component] += loose);
       }
     }
-    return next;
+    nodes_[component] += drawn.kept.size();
+    if (!settings_.only_counts) drawn_.push_back(std::move(drawn));
   }
 
-  void keep(const Frontier& frontier, std::size_t i, std::size_t level) {
-    sums_.add(frontier.weighed[i]);
-    if (!draws_) return;
-    ++kept_;
-    if (settings_.only_counts) return;
-    const TreePart& part = parts_[frontier.part];
-    nodes_[part.component].add_node(part, frontier.items[i], level, frontier.weighed[i]);
+  // The children of opened nodes are reached next, and looked at where they were not yet.
+  void reach_children(Walk& walk, std::size_t level_number) {
+    const TreeOfType& tree = parts_[walk.part].tree();
+    if (walk.levels.size() == level_number + 1) walk.levels.emplace_back();
+    KnownLevel& level = walk.levels[level_number];
+    KnownLevel& next = walk.levels[level_number + 1];
+    LargeVector<std::uint32_t> children, newly_opened;
+    const std::size_t known_before = next.items.size();
+    std::size_t known = known_before;
+    for (std::size_t r = 0; r < walk.reached.size(); ++r) {
+      if (walk.is_opened[r] == 0) continue;
+      const std::uint32_t i = walk.reached[r];
+      const unsigned count = level.weighed[i].children;
+      if (count == 0) continue;
+      if (level.first_children[i] == unknown) {
+        level.first_children[i] = static_cast<std::uint32_t>(known);
+        known += count;
+        newly_opened.push_back(i);
+      }
+      for (unsigned child = 0; child < count; ++child)
+        children.push_back(level.first_children[i] + child);
+    }
+    if (known >= unknown || (!newly_opened.empty() && level_number + 1 >= tree.levels.size()))
+      refuse_damaged();
+    if (known_before == 0) make_room(next, known);
+    next.items.resize(known);
+    next.weighed.resize(known);
+    next.first_children.resize(known, unknown);
+    for_blocks(newly_opened.size(), 512, [&](std::size_t first, std::size_t last) {
+      for (std::size_t n = first; n < last; ++n)
+        look_at_children(walk, level_number, newly_opened[n]);
+    });
+    visited_ += known - known_before;
+    constexpr std::uint64_t flags = 2;  // of children and loose particles
+    bytes_ += (known - known_before) *
+              (sizeof(TreeNode) + flags + tree.fields.size() * sizeof(SampledField));
+    walk.reached = std::move(children);
   }
 
-  void open(const TreePart& part, const TreeItem& item, std::size_t level_number,
-            std::vector<TreeItem>& next) {
-    const TreeOfType& tree = part.tree();
-    const TreeLevel& level = tree.levels[level_number];
-    std::uint64_t child = level.first_child(item.node);
-    const std::uint8_t mask = level.children[item.node];
+  // For those of later passes, too: room that is not used takes no memory.
+  static void make_room(KnownLevel& level, std::size_t count) {
+    level.items.reserve(2 * count);
+    level.weighed.reserve(2 * count);
+    level.first_children.reserve(2 * count);
+  }
+
+  void look_at_children(Walk& walk, std::size_t level_number, std::uint32_t opened) {
+    const TreePart& part = parts_[walk.part];
+    const TreeLevel& of_tree = part.tree().levels[level_number];
+    const KnownLevel& level = walk.levels[level_number];
+    KnownLevel& next = walk.levels[level_number + 1];
+    const TreeItem& item = level.items[opened];
+    const std::uint8_t mask = of_tree.children[item.node];
+    std::uint64_t child = of_tree.first_child(item.node);
+    std::size_t to = level.first_children[opened];
     for (unsigned octant = 0; octant < 8; ++octant) {
       if ((mask >> octant & 1U) == 0) continue;
-      if (level_number + 1 >= tree.levels.size() || child >= tree.levels[level_number + 1].count)
-        refuse_damaged();
-      TreeItem opened;
-      opened.node = static_cast<std::uint32_t>(child++);
+      if (child >= part.tree().levels[level_number + 1].count) refuse_damaged();
+      TreeItem& looked_at = next.items[to];
+      looked_at.node = static_cast<std::uint32_t>(child++);
       for (std::size_t axis = 0; axis < 3; ++axis)
-        opened.cell[axis] = 2 * item.cell[axis] + (octant >> axis & 1U);
-      next.push_back(opened);
+        looked_at.cell[axis] = 2 * item.cell[axis] + (octant >> axis & 1U);
+      next.weighed[to] = weigher_.weigh(part, looked_at, level_number + 1);
+      ++to;
     }
-    if (draws_) open_to_particles(part, level, item.node);
   }
 
-  void open_to_particles(const TreePart& part, const TreeLevel& level, std::uint64_t node) {
+  void set_drawn(const DrawnLevel& drawn, DrawnNodes& nodes) const {
+    const TreePart& part = parts_[drawn.part];
+    const KnownLevel& level = level_of(drawn);
+    constexpr std::size_t block = 4096;
+    for_blocks(drawn.kept.size(), block, [&](std::size_t first, std::size_t last) {
+      for (std::size_t n = first; n < last; ++n) {
+        const std::uint32_t i = drawn.kept[n];
+        nodes.set_node(drawn.first_node + n, part, level.items[i], drawn.level, level.weighed[i]);
+      }
+    });
+    for_blocks(drawn.opened.size(), block, [&](std::size_t first, std::size_t last) {
+      std::uint64_t to = first == 0 ? drawn.first_particle : drawn.behind[first - 1];
+      for (std::size_t n = first; n < last; ++n)
+        set_particles(part, drawn.level, level.items[drawn.opened[n]].node, to, nodes);
+    });
+  }
+
+  void set_particles(const TreePart& part, std::size_t level_number, std::uint32_t node,
+                     std::uint64_t& to, DrawnNodes& nodes) const {
     const TreeOfType& tree = part.tree();
-    const std::uint64_t count = level.loose[node];
-    if (count == 0) return;
-    const std::uint64_t first = level.first_loose_particle(node);
+    const TreeLevel& level = tree.levels[level_number];
+    const std::uint64_t count = level.loose[node], first = level.first_loose_particle(node);
     if (count > tree.order_count || first > tree.order_count - count) refuse_damaged();
-    loose_ += count;
-    if (settings_.only_counts) return;
     for (std::uint64_t loose = first; loose < first + count; ++loose) {
       const std::uint64_t place = tree.order[loose];
       if (place >= tree.count) refuse_damaged();
-      nodes_[part.component].add_particle(part.part->first + place);
+      nodes.set_particle(to++, part.part->first + place);
     }
   }
 
+  const KnownLevel& level_of(const DrawnLevel& drawn) const {
+    const auto walk = std::find_if(walks_.begin(), walks_.end(),
+                                   [&drawn](const Walk& w) { return w.part == drawn.part; });
+    return walk->levels[drawn.level];
+  }
+
+  std::vector<DrawnNodes> drawn_nodes() const {
+    std::vector<DrawnNodes> nodes;
+    for (std::size_t c = 0; c < frame_.components.size(); ++c)
+      nodes.emplace_back(settings_.only_counts ? 0 : nodes_[c],
+                         settings_.only_counts ? 0 : particles_[c]);
+    for (const DrawnLevel& drawn : drawn_)
+      set_drawn(drawn, nodes[parts_[drawn.part].component]);
+    return nodes;
+  }
+
   TreeCut finished() {
+    std::vector<DrawnNodes> nodes = drawn_nodes();
+    walks_.clear();
     TreeCut cut;
     cut.frame = frame_;
     cut.frame.components.clear();
@@ -227,11 +324,11 @@ class Cutter {
         cut.frame.components.push_back(component);
         continue;
       }
-      cut.frame.components.push_back(nodes_[c].nodes(component));
-      cut.frame.components.push_back(nodes_[c].particles(component));
+      cut.frame.components.push_back(nodes[c].nodes(component));
+      cut.frame.components.push_back(nodes[c].particles(component));
     }
-    cut.nodes = kept_;
-    cut.particles = loose_;
+    cut.nodes = std::accumulate(nodes_.begin(), nodes_.end(), std::uint64_t{0});
+    cut.particles = std::accumulate(particles_.begin(), particles_.end(), std::uint64_t{0});
     cut.visited = visited_;
     cut.bytes = bytes_ + cut.particles * sizeof(std::uint32_t);
     cut.estimate = settings_.error * limits_.largest_part(sums_.errors);
@@ -263,9 +360,10 @@ class Cutter {
   NodeWeigher weigher_;
   NodeLimits limits_;
   bool draws_ = false;
-  std::vector<Level> seen_;        // by the pass before
-  std::vector<DrawnNodes> nodes_;  // of each component
-  std::uint64_t kept_ = 0, loose_ = 0, visited_ = 0, bytes_ = 0;
+  std::vector<Walk> walks_;
+  std::vector<DrawnLevel> drawn_;
+  std::vector<std::uint64_t> nodes_, particles_;  // of each component: how many are drawn
+  std::uint64_t visited_ = 0, bytes_ = 0;
 };
 
 }  // namespace
