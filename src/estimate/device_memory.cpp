@@ -55,9 +55,7 @@ class FrameBuffers {
   // Where the splats of an ordered frame lie: each particle has room for its own, block by block.
   std::uint64_t slots() const { return splat_slots(frame_, plan_, traits_); }
 
-  std::uint64_t splats(std::uint64_t count) const {
-    return count * (variant_.splat_bytes() + variant_.extended_splat_bytes());
-  }
+  std::uint64_t splats(std::uint64_t count) const { return count * variant_.splat_bytes(); }
 
   // Which tiles each is listed in.
   std::uint64_t tiles(std::uint64_t splats) const {

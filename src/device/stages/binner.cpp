@@ -47,7 +47,7 @@ Binner::Binner(const StageContext& context)
   parameters_.blurs = grid_blurs(context.plan.pyramid);
 }
 
-CountedSplats Binner::start(const SplatMemory& splats) const {
+CountedSplats Binner::start(const Buffer<std::byte>& splats) const {
   CountedSplats counted;
   counted.parameters = parameters_;
   counted.splats = &splats;
@@ -113,7 +113,7 @@ void Binner::count_tiles(CountedSplats& counted) const {
   Launch(context_.device, "bin", program_.create_kernel("bin_count"))
       .value(counted.parameters)
       .arg(context_.grids)
-      .arg(counted.splats->splats)
+      .arg(*counted.splats)
       .arg(*counted.order)
       .arg(counted.tile_counts)
       .arg(counted.tiles)
@@ -185,7 +185,7 @@ void Binner::fill_lists(const CountedSplats& counted, const TileBand& band,
   Launch scatter(device, "bin", program_.create_kernel("bin_scatter"));
   scatter.value(parameters)
       .arg(context_.grids)
-      .arg(counted.splats->splats)
+      .arg(*counted.splats)
       .arg(*counted.order)
       .arg(*counted.blocks)
       .arg(counted.tile_counts)

@@ -4,17 +4,18 @@
 
 #include "device/opencl/launch.h"
 #include "device/ranks/rank_share.h"
+#include "device/stages/stage_programs.h"
 
 namespace splotchcl {
-void LightAdder::add(const char* kernel, const shared::AddLightParameters& parameters,
-                     std::size_t planes, const Buffer<float>& to, const Buffer<float>& from) const {
-  Launch(context_.device, "composite",
-         context_.device.programs.get(program_source("kernels/composite/add_light.cl"))
-             .create_kernel(kernel))
+void LightAdder::add(const shared::AddLightParameters& parameters, std::size_t numbers,
+                     const Buffer<float>& to, const Buffer<float>& from) const {
+  Launch(
+      context_.device, "composite",
+      context_.device.programs.get(add_light_program(context_.variant)).create_kernel("add_light"))
       .value(parameters)
       .arg(to)
       .arg(from)
-      .run_grid((parameters.plane_floats + 7) / 8, planes, 1);
+      .run_grid((parameters.plane_floats + 7) / 8, numbers, 1);
 }
 
 void LightAdder::add_planes(const Planes& to, const Planes& from, std::size_t g) const {
@@ -22,10 +23,8 @@ void LightAdder::add_planes(const Planes& to, const Planes& from, std::size_t g)
   const std::size_t planes = context_.variant.planes();
   const shared::AddLightParameters parameters = {grid.first_float_low, grid.first_float_high,
                                                  grid.plane_size};
-  const bool is_pairs = context_.variant.extended;
   if ((to.used_grids >> g & 1) != 0) {
-    add(is_pairs ? "add_pairs_of_light" : "add_light", parameters, is_pairs ? planes / 2 : planes,
-        to.light, from.light);
+    add(parameters, context_.variant.extended ? planes / 2 : planes, to.light, from.light);
     return;
   }
   const std::size_t first = floats_before(grid) * sizeof(float);
@@ -45,7 +44,7 @@ SplatLight LightAdder::add(SplatLight to, SplatLight from) const {
     to.cells = std::move(from.cells);
   } else if (from.cells.size() > 0) {
     const shared::AddLightParameters cells = {0, 0, static_cast<std::uint32_t>(to.cells.size())};
-    add("add_light", cells, 1, to.cells, from.cells);
+    add(cells, 1, to.cells, from.cells);
   }
   return to;
 }

@@ -21,7 +21,7 @@ class LightAdder {
 
  private:
   void add_planes(const Planes& to, const Planes& from, std::size_t grid) const;
-  void add(const char* kernel, const shared::AddLightParameters& parameters, std::size_t planes,
+  void add(const shared::AddLightParameters& parameters, std::size_t numbers,
            const Buffer<float>& to, const Buffer<float>& from) const;
 
   const StageContext& context_;
