@@ -56,7 +56,7 @@ void StageRig::bin() {
 }
 
 void StageRig::composite() {
-  const SplatMemory& splats = plan_.needs_sort() ? sorted_.splats : blocks_.splats;
+  const Buffer<std::byte>& splats = plan_.needs_sort() ? sorted_.splats : blocks_.splats;
   planes_ = pipeline_.compositor().composite(lists_, splats, std::move(planes_));
 }
 

@@ -150,34 +150,17 @@ INLINED __global TileSplat* next_listed(const ListedBand band, int is_behind, ui
   return band.entries + (band.starts[tile] + count[tile]++);
 }
 
-#if EXTENDED_NUMBERS
-INLINED void list_slot(const ListedBand band, const Splat splat, const Grid grid, uint touched,
-                       uint slot) {
-  ListedTiles listed;
-  if (touched == FOUND_AGAIN) {
-    listed = find_lists(splat, grid);
-  } else {
-    listed.range = unpack_tiles(touched);
-    listed.is_behind = 0;
-  }
-  for (int ty = listed.range.z; ty <= listed.range.w; ++ty) {
-    for (int tx = listed.range.x; tx <= listed.range.y; ++tx) {
-      const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
-      if (is_of_band(band, tile)) next_listed(band, listed.is_behind, tile)->slot = slot;
-    }
-  }
-}
-#else
 // A call: hardly any splats have to have their tiles found again.
 __attribute__((noinline)) static void list_far_or_wide(
     const BinParameters* p, const ListedBand* band, __global const Grid* grids,
-    __global const Splat* from, __global const ComponentColors* component_colors,
+    __global const Splat* from, uint slot, __global const ComponentColors* component_colors,
     __global const float* knots) {
   const Splat splat = *from;
   const Grid grid = grids[grid_of(splat)];
   const ListedTiles listed = find_lists(splat, grid);
   const int4 range = listed.range;
-  TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, *p);
+  TileSplat entry =
+      entry_without_place(splat, slot, component_colors[component_of(splat)], knots, *p);
   for (int ty = range.z; ty <= range.w; ++ty) {
     for (int tx = range.x; tx <= range.y; ++tx) {
       const uint tile = grid.corner_tile + (uint)(ty * grid.tiles_x + tx);
@@ -195,13 +178,14 @@ INLINED int2 size_of_tile(int bits) {
 }
 
 INLINED void list_splat(const BinParameters* p, const ListedBand* band, __global const Grid* grids,
-                        __global const Splat* from, uint touched,
+                        __global const Splat* from, uint slot, uint touched,
                         __global const ComponentColors* component_colors,
                         __global const float* knots) {
   const Splat splat = *from;
   const int bits = p->place_bits;
   const float unit = as_float((127 - bits) << 23);
-  TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, *p);
+  TileSplat entry =
+      entry_without_place(splat, slot, component_colors[component_of(splat)], knots, *p);
   __global const Grid* grid = grids + grid_of(splat);
   const uint column = first_column_of_tiles(touched), row = first_row_of_tiles(touched);
   const uint columns = columns_of_tiles(touched), tiles_x = (uint)grid->tiles_x;
@@ -228,7 +212,6 @@ INLINED void list_splat(const BinParameters* p, const ListedBand* band, __global
     units -= (int2)((1 - back) * TILE_WIDTH, is_last ? TILE_HEIGHT : 0) << bits;
   }
 }
-#endif
 
 KERNEL_BODY void scatter_block(const BinParameters* of_band, __global const Grid* grids,
                                __global const Splat* splats, __global const uint* order,
@@ -258,17 +241,12 @@ KERNEL_BODY void scatter_block(const BinParameters* of_band, __global const Grid
 #else
     const uint touched = tiles[slot - p.first];
 #endif
-#if EXTENDED_NUMBERS && LIGHT_ORDERED
-    list_slot(band, *from, grids[grid_of(*from)], touched, order[slot]);
-#elif EXTENDED_NUMBERS
-    list_slot(band, *from, grids[grid_of(*from)], touched, slot);
-#else
+    const uint own_slot = LIGHT_ORDERED ? order[slot] : slot;
     if (touched == FOUND_AGAIN) {
-      list_far_or_wide(&p, &band, grids, from, component_colors, knots);
+      list_far_or_wide(&p, &band, grids, from, own_slot, component_colors, knots);
     } else {
-      list_splat(&p, &band, grids, from, touched, component_colors, knots);
+      list_splat(&p, &band, grids, from, own_slot, touched, component_colors, knots);
     }
-#endif
   }
 }
 

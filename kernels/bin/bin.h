@@ -12,9 +12,9 @@
 
 // A splat in the list of one tile, positions relative to the tile's middle, amplitudes at
 // the splat's center.
-struct TileSplat {
+typedef struct TileSplat {
 #if EXTENDED_NUMBERS
-  unsigned int slot;  // of the extended splat (composite_extended_rows.cl)
+  unsigned int slot;  // of the splat (composite_extended_rows.cl)
 #else
   float x, y;
   float sigma, radius;  // sigma as in Splat
@@ -34,7 +34,7 @@ struct TileSplat {
   float summed[SUMMED];
 #endif
 #endif
-};
+} TileSplat;
 
 // Lists are read some entries at a time (entry_lanes.cl): so many may be looked at behind the last.
 #define ENTRIES_BEHIND 7
@@ -44,7 +44,7 @@ struct TileSplat {
 
 // Which splats a binning pass takes: work-item b walks the slots first + b * stride ...
 // of at most `length` splats.
-struct BinParameters {
+typedef struct BinParameters {
   unsigned int first, stride, length;
   unsigned int end;  // slots from here on do not exist
   unsigned int block_count;
@@ -58,14 +58,14 @@ struct BinParameters {
   float mean_sigma;
   float widening;
   struct GridBlurs blurs;
-};
+} BinParameters;
 
 // The tiles of one splat, of the shape for GPUs: so many columns and rows of them from the first
 // on, in a grid of so many in a row; BEHIND_OTHERS: of the first alone, behind all others of its
 // list (tiles.cl).
-struct SplatTiles {
+typedef struct SplatTiles {
   unsigned int first, columns, rows, grid_columns;
-} BY_FOUR_WORDS;
+} BY_FOUR_WORDS SplatTiles;
 #define BEHIND_OTHERS 0xffffffffu
 // Splats of at most so many tiles are counted tile by tile.
 #define FEW_TILES 4
@@ -74,20 +74,14 @@ struct SplatTiles {
 #define COPIES_OF_COUNTS 16
 
 // Of a band of tiles in this shape.
-struct GroupBinParameters {
+typedef struct GroupBinParameters {
   struct BinParameters bin;
   unsigned int entry_count;  // of the band
-};
+} GroupBinParameters;
 
 // A stretch of one tile's list, composited by one work-item or work-group.
-struct Segment {
+typedef struct Segment {
   unsigned int tile, begin, end;
   unsigned int partial;  // where the layer goes; NO_PARTIAL: into the planes
-};
+} Segment;
 #define NO_PARTIAL 0xffffffffu
-
-typedef struct TileSplat TileSplat;
-typedef struct BinParameters BinParameters;
-typedef struct SplatTiles SplatTiles;
-typedef struct GroupBinParameters GroupBinParameters;
-typedef struct Segment Segment;

@@ -133,25 +133,18 @@ __kernel OF_GROUPS void bin_emit(const GroupBinParameters p, __global const uint
   splats_of_entries[entry] = order[p.bin.first + number];
 }
 
-#if EXTENDED_NUMBERS
-INLINED TileSplat entry_of(const BinParameters p, uint splat) {
-  TileSplat entry;
-  entry.slot = splat;
-  return entry;
-}
-#else
-INLINED TileSplat entry_of(const BinParameters p, const Splat splat, const Grid grid, uint tile,
-                           __global const ComponentColors* component_colors,
+INLINED TileSplat entry_of(const BinParameters p, uint slot, const Splat splat, const Grid grid,
+                           uint tile, __global const ComponentColors* component_colors,
                            __global const float* knots) {
   const uint in_grid = tile - grid.first_tile;
   const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
   const int middle_x = grid.first_x + column * TILE_WIDTH + TILE_WIDTH / 2;
   const int middle_y = grid.first_y + row * TILE_HEIGHT + TILE_HEIGHT / 2;
-  TileSplat entry = entry_without_place(splat, component_colors[component_of(splat)], knots, p);
+  TileSplat entry =
+      entry_without_place(splat, slot, component_colors[component_of(splat)], knots, p);
   set_place(&entry, splat, grid, (int2)(middle_x, middle_y));
   return entry;
 }
-#endif
 
 // A group writes its entries together, word by word.
 #define ENTRY_WORDS (sizeof(TileSplat) / sizeof(uint))
@@ -166,15 +159,11 @@ __kernel OF_GROUPS void bin_make_entries(const GroupBinParameters p, __global co
   const uint item = get_local_id(0), first = get_group_id(0) * GROUP_ITEMS;
   const uint count = min((uint)GROUP_ITEMS, p.entry_count - first);
   if (item < count) {
-    const uint splat = splats_of_entries[first + item];
-#if EXTENDED_NUMBERS
-    own[item] = entry_of(p.bin, splat);
-#else
-    const Splat found = splats[splat];
-    own[item] = entry_of(p.bin, found, grids[grid_of(found)],
+    const uint slot = splats_of_entries[first + item];
+    const Splat found = splats[slot];
+    own[item] = entry_of(p.bin, slot, found, grids[grid_of(found)],
                          (tiles_of_entries[first + item] >> p.bin.has_parts) + p.bin.first_tile,
                          component_colors, knots);
-#endif
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   __local const uint* words = (__local const uint*)own;

@@ -61,9 +61,19 @@ INLINED Amplitudes amplitudes_of_splat(const Splat splat, const ComponentColors 
 }
 #endif
 
-#if !EXTENDED_NUMBERS
-// All but the place, which differs from tile to tile.
-INLINED TileSplat entry_without_place(const Splat splat, const ComponentColors colors,
+#if EXTENDED_NUMBERS
+INLINED TileSplat entry_without_place(const Splat splat, uint slot, const ComponentColors colors,
+                                      __global const float* knots, const BinParameters p) {
+  TileSplat entry;
+  entry.slot = slot;
+  return entry;
+}
+
+INLINED void set_units(TileSplat* entry, const Splat splat, int2 units, float unit) {}
+INLINED void set_place(TileSplat* entry, const Splat splat, const Grid grid, int2 tile_middle) {}
+#else
+// All but the place, which differs from tile to tile, of the splat in this slot.
+INLINED TileSplat entry_without_place(const Splat splat, uint slot, const ComponentColors colors,
                                       __global const float* knots, const BinParameters p) {
   TileSplat entry;
   entry.sigma = splat.sigma;

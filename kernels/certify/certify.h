@@ -5,13 +5,13 @@
 
 // Square cells of one octave of widths in a tile, in the order of its pixels' numbers, of which the
 // bits of column and row follow each other in turn (Morton's order): those of a cell are one run.
-struct OctaveCells {
+typedef struct OctaveCells {
   unsigned int first;  // of the tile's
   int pixel_bits;      // a cell has 2^pixel_bits pixels
-};
+} OctaveCells;
 
 // Splats of one octave of widths are collected in cells about as wide as they are.
-struct CertifyParameters {
+typedef struct CertifyParameters {
   unsigned int grid_count, segment_count;
   unsigned int cells_per_tile;  // of all octaves, peaks and endings, and
   unsigned int listed;          // the one that counts the splats of a tile's list
@@ -23,7 +23,4 @@ struct CertifyParameters {
   float edge_peak;     // brighter splats are drawn until they have fallen as far as this one
   float bright_peak;   // no more than this counts of a peak on the picture's own grid
   float light_behind;  // an error of absorption counts as so much of one of emission (plan.h)
-};
-
-typedef struct OctaveCells OctaveCells;
-typedef struct CertifyParameters CertifyParameters;
+} CertifyParameters;

@@ -4,9 +4,7 @@
 // Words of four bytes that a work-item clears: enough to be worth a thread's turn.
 #define CLEARED_WORDS 16384
 
-struct ClearParameters {
+typedef struct ClearParameters {
   unsigned int first_low, first_high;  // the first word
   unsigned int words;
-};
-
-typedef struct ClearParameters ClearParameters;
+} ClearParameters;

@@ -2,19 +2,16 @@
 #pragma once
 
 // Splats of equirectangular pictures are wider than high: x and y have widths of their own.
-struct WidthAlongX {
+typedef struct WidthAlongX {
   float sigma, radius;  // pixels
-};
+} WidthAlongX;
 
 // Of a splat on a face of a cube (src/scene/projection.h, FaceEllipse).
-struct Tilt {
+typedef struct Tilt {
   float squared_width, footprint;
   float inverse_secant2;  // times log2(e)
   float scale;            // squared_width over `part` of the splat
-};
-
-typedef struct WidthAlongX WidthAlongX;
-typedef struct Tilt Tilt;
+} Tilt;
 
 #if ELLIPSES
 #define SIGMA_X(splat) ((splat).along_x.sigma)

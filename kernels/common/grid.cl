@@ -8,6 +8,9 @@ static inline size_t first_float(const Grid grid) {
   return (size_t)grid.first_float_low | ((size_t)grid.first_float_high << 32);
 }
 
+// In extended precision a number is the sum of two floats, each in a plane of its own.
+#define PLANES_OF_NUMBER (1 + EXTENDED_NUMBERS)
+
 // Where a pixel of one of its planes is.
 static inline size_t pixel_at(const Grid grid, uint plane, int x, int y) {
   return first_float(grid) + (size_t)plane * grid.plane_size +

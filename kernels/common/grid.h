@@ -15,14 +15,14 @@
 #define WIDTH_OCTAVES 16
 
 // A number as the sum of two floats.
-struct FloatPair {
+typedef struct FloatPair {
   float high, low;
-};
+} FloatPair;
 
 // One grid of the picture: grid 0 has the picture's own pixels, those of level l pixels 2^l
 // times as wide, with a guard band around the picture. All of this is the whole picture's, so
 // that a crop has its bits; in memory are the tiles that the crop needs.
-struct Grid {
+typedef struct Grid {
   int width, height;       // pixels, with the guard band
   int guard;               // pixels
   int middle_x, middle_y;  // the pixel from whose corner places of splats count
@@ -37,19 +37,19 @@ struct Grid {
   unsigned int corner_tile;         // the number of the tile at (0, 0), as if it were in memory
   unsigned int stride, plane_size;  // floats
   unsigned int first_float_low, first_float_high;  // 64-bit offset of the first plane
-};
+} Grid;
 
 // Levels from first_level on (plan.h, GridPyramid) have 2^shift grids beside the picture's own,
 // each blurred afterwards by one of these sigma^2, in pixels of its own; all 0 where nothing is
 // blurred. As many as there may be, over and over again.
 #define MOST_BLURS 4
-struct GridBlurs {
+typedef struct GridBlurs {
   int shift, first_level;
   float sigma2[MOST_BLURS];
   // Splats up to this sigma are stencils, if they are no brighter than 1; 0: none is.
   float stencil_sigma[MOST_BLURS];
   float finer_grid;  // brighter ones need to be so many times wider for a grid; 1 without stencils
-};
+} GridBlurs;
 
 // What splats of a blurred grid are drawn by (plan.h, Stencil). Their sigma is that which the blur
 // makes of them, with a minus.
@@ -57,12 +57,7 @@ struct GridBlurs {
 #define STENCIL_PLACE_POWERS 3
 #define STENCIL_WIDTH_POWERS 4
 #define STENCIL_RADIUS 4.0f
-struct Stencil {
+typedef struct Stencil {
   float middle, per_width;
   float coefficients[STENCIL_PLACE_POWERS * STENCIL_WIDTH_POWERS * STENCIL_PIXELS];
-};
-
-typedef struct FloatPair FloatPair;
-typedef struct Grid Grid;
-typedef struct GridBlurs GridBlurs;
-typedef struct Stencil Stencil;
+} Stencil;

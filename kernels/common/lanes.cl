@@ -13,60 +13,19 @@
 #undef LANES
 #if DOUBLE_VALUES
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
-#define LANES 1
-#define VALUE double
-// The bits of a float: of numbers that are stored, whatever VALUE is.
-#define AS_VALUE(bits) ((double)as_float(bits))
-#define AS_INTEGER(value) as_int((float)(value))
-#define TO_VALUE convert_double
 #elif defined(LANES_16)
 #define LANES 16
+#define OF_LANES(name) name##16
 #define NUMBERS_OF_LANES (int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
-#define VALUE float16
-#define INTEGER int16
-#define AS_VALUE as_float16
-#define AS_INTEGER as_int16
-#define AS_WIDE as_long16
-#define WIDE long16
-#define UNSIGNED_WIDE ulong16
-#define TO_VALUE convert_float16
-#define TO_INTEGER convert_int16
-#define TO_WIDE convert_long16
-#define TO_UNSIGNED_WIDE convert_ulong16
-#define LOAD(p) vload16(0, p)
-#define STORE(v, p) vstore16(v, 0, p)
 #elif defined(LANES_8)
 #define LANES 8
+#define OF_LANES(name) name##8
 #define NUMBERS_OF_LANES (int8)(0, 1, 2, 3, 4, 5, 6, 7)
-#define VALUE float8
-#define INTEGER int8
-#define AS_VALUE as_float8
-#define AS_INTEGER as_int8
-#define AS_WIDE as_long8
-#define WIDE long8
-#define UNSIGNED_WIDE ulong8
-#define TO_VALUE convert_float8
-#define TO_INTEGER convert_int8
-#define TO_WIDE convert_long8
-#define TO_UNSIGNED_WIDE convert_ulong8
-#define LOAD(p) vload8(0, p)
-#define STORE(v, p) vstore8(v, 0, p)
-#else
-#define LANES 1
-#define VALUE float
-#define AS_VALUE as_float
-#define AS_INTEGER as_int
-#define TO_VALUE convert_float
 #endif
-#if LANES == 1
+#ifndef LANES
+#define LANES 1
+#define OF_LANES(name) name
 #define NUMBERS_OF_LANES 0
-#define INTEGER int
-#define AS_WIDE as_long
-#define WIDE long
-#define UNSIGNED_WIDE ulong
-#define TO_INTEGER convert_int
-#define TO_WIDE convert_long
-#define TO_UNSIGNED_WIDE convert_ulong
 #define LOAD(p) (*(p))
 #define STORE(v, p) (*(p) = (v))
 // A scalar comparison gives 1 where a vector's gives -1; select() wants the top bit of
@@ -74,6 +33,8 @@
 // with & and |.
 #define ANY(mask) (mask)
 #else
+#define LOAD(p) OF_LANES(vload)(0, p)
+#define STORE(v, p) OF_LANES(vstore)(v, 0, p)
 // Two instructions, where PoCL's any() looks at one lane after the other.
 #ifdef __has_builtin
 #if __has_builtin(__builtin_reduce_or)
@@ -85,6 +46,26 @@
 #define ANY(mask) any(mask)
 #endif
 #endif
+#if DOUBLE_VALUES
+#define VALUE double
+// The bits of a float: of numbers that are stored, whatever VALUE is.
+#define AS_VALUE(bits) ((double)as_float(bits))
+#define AS_INTEGER(value) as_int((float)(value))
+#define TO_VALUE convert_double
+#define TO_FLOATS convert_float
+#else
+#define VALUE OF_LANES(float)
+#define AS_VALUE OF_LANES(as_float)
+#define AS_INTEGER OF_LANES(as_int)
+#define TO_VALUE OF_LANES(convert_float)
+#endif
+#define INTEGER OF_LANES(int)
+#define WIDE OF_LANES(long)
+#define UNSIGNED_WIDE OF_LANES(ulong)
+#define AS_WIDE OF_LANES(as_long)
+#define TO_INTEGER OF_LANES(convert_int)
+#define TO_WIDE OF_LANES(convert_long)
+#define TO_UNSIGNED_WIDE OF_LANES(convert_ulong)
 
 // 0 where a mask is false, its bits where it is true: masks as loop conditions per lane.
 static inline VALUE choose(VALUE if_false, VALUE if_true, INTEGER mask) {
@@ -117,6 +98,18 @@ static inline VALUE log2_positive(VALUE x) {
   return TO_VALUE(exponent) + t * (odd * t + even) -
          choose((VALUE)(0.0f), (VALUE)(24.0f), denormal);
 #endif
+}
+
+// Of one lane.
+static inline float value_of(VALUE values, uint k) {
+#if DOUBLE_VALUES
+  return (float)values;
+#else
+  return ((const float*)&values)[k];
+#endif
+}
+static inline int integer_of(INTEGER values, uint k) {
+  return ((const int*)&values)[k];
 }
 
 // The bits of all lanes together.

@@ -4,14 +4,34 @@
 
 #pragma once
 
-struct OwnColor {
+typedef struct OwnColor {
   float rgb[3];
-};
+} OwnColor;
+
+// Tilt of extended precision, without log2(e), of a splat that has all of its weight.
+typedef struct ExtendedTilt {
+  struct FloatPair squared_width, footprint, inverse_secant2;
+} ExtendedTilt;
+
+// What extended precision knows of a splat, with its amplitudes at the center. In pixels of the
+// whole picture, so that a crop has the same bits.
+typedef struct ExtendedSplat {
+  struct FloatPair x, y, sigma;
+  struct FloatPair summed[3];    // A w, optical depth; where nothing absorbs, E w
+  struct FloatPair emission[3];  // E w
+  struct FloatPair cut;          // radius of the cut disc
+#if ELLIPSES
+  struct FloatPair sigma_x;
+#endif
+#if FACE_OF_CUBE
+  struct ExtendedTilt tilt;
+#endif
+} ExtendedSplat;
 
 // A projected particle, widths in pixels of its grid. Its centre is in fixed point (Grid), so that
 // it is known as well anywhere in the picture; so far beside it that the integers cannot hold it,
 // in coarser units by a power of two.
-struct Splat {
+typedef struct Splat {
   int x, y;
   float sigma;                      // widened, unless pixel means are taken; negative: of a
                                     // bright splat, whose means keep more digits (shape.cl), or
@@ -38,11 +58,14 @@ struct Splat {
 #if TILES_IN_SPLAT
   unsigned int tiles;  // of the whole picture that it touches (tiles.cl)
 #endif
+#if EXTENDED_NUMBERS
+  struct ExtendedSplat extended;
+#endif
 #if WHOLE_SECTORS
   unsigned int unused;  // a GPU gathers 32 bytes at a time
-} BY_FOUR_WORDS;
+} BY_FOUR_WORDS Splat;
 #else
-};
+} Splat;
 #endif
 
 #define ABSORPTION_AS_EMISSION 0
@@ -54,7 +77,7 @@ struct Splat {
 // first_absorption_knot. Where the palette has none of its own, absorption_knot_count is 0. A knot
 // is three floats and one of padding, which a processor fetches at once.
 #define KNOT_FLOATS 4
-struct ComponentColors {
+typedef struct ComponentColors {
   unsigned int first_knot, knot_count;
   unsigned int first_absorption_knot, absorption_knot_count;
   float brightness;
@@ -65,8 +88,4 @@ struct ComponentColors {
   unsigned int first_summed_knot;
   float last_summed_knot;
   float summed_scale;
-};
-
-typedef struct OwnColor OwnColor;
-typedef struct Splat Splat;
-typedef struct ComponentColors ComponentColors;
+} ComponentColors;

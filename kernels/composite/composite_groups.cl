@@ -9,13 +9,12 @@
 #include "kernels/composite/clouds.cl"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/face_shape.cl"
-#include "kernels/composite/layer_behind.cl"
 #include "kernels/composite/opacity.cl"
 #include "kernels/composite/pixel_range.cl"
+#include "kernels/composite/planes.cl"
 #include "kernels/composite/shape.cl"
 #include "kernels/composite/stencil.cl"
 #include "kernels/composite/tile_batch.cl"
-#include "kernels/extended/extended_splat.h"
 
 #if FACE_OF_CUBE
 #define TILE_PARAMETER , const TileOnFace* on_face
@@ -221,7 +220,7 @@ INLINED int add_block(float* block, const __local PixelPlaces* places, int is_em
     float front[PLANES];
     __global float* at = pixel_of_tile(places, x, y + ROW_OF_PIXEL(i));
     load_pixel(at, places->plane, is_empty, front);
-    add_layer(front, block + i * PLANES);
+    add_behind(front, block + i * PLANES);
     for (int c = 0; c < PLANES; ++c) {
       at[c * places->plane] = front[c];
       block[i * PLANES + c] = 0.0f;
@@ -245,7 +244,7 @@ INLINED int any_shows_behind(const float* block, float stop) {
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
     __global const TileSplat* entries, __global float* planes, __global float* partials,
-    __global const ExtendedSplat* extended_splats, __global const CloudEntry* clouds,
+    __global const uint* splats, __global const CloudEntry* clouds,
     __global const CloudSplat* cloud_splats, __global const float* directions,
     __global const DirectionCone* cones, __global const Stencil* stencils) {
   __local Listed listed[2];
@@ -258,7 +257,6 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
   const uint grid_number = grid_of_tile(grids, p.grid_count, segment.tile);
   const Grid grid = grids[grid_number];
   __global const Stencil* const stencil = STENCILS ? stencil_of_grid(stencils, grid_number) : 0;
-  const uint in_grid = segment.tile - grid.first_tile;
   const uint x = part % PARTS_ACROSS * PART_WIDTH + item % PART_WIDTH;
   const uint y = part / PARTS_ACROSS * PART_HEIGHT + item % PART_ITEMS / PART_WIDTH * ITEM_HEIGHT;
   const CloudTables tables = {clouds, cloud_splats, directions, cones};
@@ -276,11 +274,8 @@ __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
     shows = 0;
     places.row = is_partial ? TILE_WIDTH : grid.stride;
     places.plane = is_partial ? TILE_PIXELS : grid.plane_size;
-    places.first = is_partial
-                       ? partials + (size_t)segment.partial * PLANES * TILE_PIXELS
-                       : planes + first_float(grid) +
-                             (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
-                             (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
+    places.first = is_partial ? partials + (size_t)segment.partial * PLANES * TILE_PIXELS
+                              : planes + first_of_tile(grid, segment.tile);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   for (uint i = 0; i < PIXELS_OF_ITEM; ++i) {

@@ -16,7 +16,6 @@
 #include "kernels/composite/stencil.cl"
 #include "kernels/composite/summed_list.cl"
 #include "kernels/composite/tile_planes.cl"
-#include "kernels/extended/extended_splat.h"
 
 // A call: of a kernel itself PoCL makes three copies. Its last argument tells the compiler that it
 // may use registers of sixteen floats (lanes.cl).
@@ -37,10 +36,9 @@ __attribute__((noinline)) static void composite_segment(
 __kernel void composite(const CompositeParameters p, __global const Grid* grids,
                         __global const Segment* segments, __global const TileSplat* entries,
                         __global float* planes, __global float* partials,
-                        __global const ExtendedSplat* extended_splats,
-                        __global const CloudEntry* clouds, __global const CloudSplat* cloud_splats,
-                        __global const float* directions, __global const DirectionCone* cones,
-                        __global const Stencil* stencils) {
+                        __global const uint* splats, __global const CloudEntry* clouds,
+                        __global const CloudSplat* cloud_splats, __global const float* directions,
+                        __global const DirectionCone* cones, __global const Stencil* stencils) {
   const uint piece = piece_of_item(p.end_segment - p.first_segment);
   if (piece == NO_PIECE) return;
   const CloudTables tables = {clouds, cloud_splats, directions, cones};

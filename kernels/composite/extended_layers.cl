@@ -1,23 +1,28 @@
 // What splats add to pixels in extended precision, eight of a row at a time, in planes of PLANE
 // doubles: sums or, in order, light and transmittances. Doubles of these lose no digits to layers,
 // since each is multiplied by what the next layer lets through.
+#include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
-#include "kernels/composite/extended_pixels.cl"
-#include "kernels/extended/double_lanes.cl"
-#include "kernels/extended/extended_splat.h"
+#include "kernels/common/double_lanes.cl"
+#include "kernels/common/grid.cl"
+#include "kernels/common/grid.h"
+#include "kernels/common/splat.h"
+// Planes have eight doubles at a time.
+#define VALUE double8
+#define LOAD(p) vload8(0, p)
+#define STORE(v, p) vstore8(v, 0, p)
+#define TO_VALUE convert_double8
+#define TO_FLOATS convert_float8
+#include "kernels/composite/planes.cl"
 
 #pragma OPENCL FP_CONTRACT ON
 
+#define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
+#define GROUP (TILE_PIXELS / 8)
 #define SUMS 3
-#if LIGHT_ORDERED
-#define TILE_PLANES 6
-#else
-#define TILE_PLANES 3
-#endif
 // Eight pixels of the tile, which begin at multiples of eight.
 #define load_doubles(p) (*(const double8*)(p))
 #define store_doubles(v, p) (*(double8*)(p) = (v))
-#define DARKEST 1e-300  // of transmittances: their logarithm is a number
 
 // What a splat adds to a channel at its center.
 typedef struct Channel {
@@ -26,14 +31,9 @@ typedef struct Channel {
 
 #if LIGHT_ORDERED
 // The splat's layer behind what is already there: with u = t X phi(A X) light grows by E u, and the
-// transmittance t loses A u. Of layers of these depths and less phi(y) = (1 - exp(-y)) / y is taken
-// by three terms of its series, whose error is y^3 / 24, and by five, whose error is y^5 / 720.
+// transmittance t loses A u. Of layers of this depth and less three terms of phi's series serve,
+// whose error is y^3 / 24.
 #define THINNEST_LAYER 1e-3
-#define THIN_LAYER 0.03
-INLINED double8 phi_of_thin(double8 y) {
-  return 1.0 - y * (0.5 - y * (1.0 / 6 - y * (1.0 / 24 - y * (1.0 / 120))));
-}
-
 INLINED void add_thin(double* source, double8 covered, const Channel of) {
   double* const passing = source + SUMS * PLANE;
   const double8 t = load_doubles(passing), u = t * covered;
@@ -101,24 +101,33 @@ INLINED Channels channels_of(const ExtendedSplat* splat) {
 #define WITH_FORMULA_FOR(of, DO) DO(add_sum);
 #endif
 
-// Between the tile and pixels in memory, which hold depths.
-static inline void take_pixels(double* tile, const Pixels pixels) {
-  for (int c = 0; c < SUMS; ++c) {
-    store_doubles(pixels.light[c], tile + c * PLANE);
-#if LIGHT_ORDERED
-    store_doubles(exp_of_minus(min(pixels.depth[c], (double8)(690.0))), tile + (c + SUMS) * PLANE);
-#endif
+// Where number `item` of eights of pixels of a segment's tile lies: in the planes, or in the
+// segment's own layer, whose planes are `plane` floats long.
+INLINED __global float* own_pixels(const Segment segment, const Grid grid, __global float* planes,
+                                   __global float* partials, uint item, size_t* plane) {
+  *plane = segment.partial == NO_PARTIAL ? grid.plane_size : TILE_PIXELS;
+  if (segment.partial != NO_PARTIAL)
+    return partials + (size_t)segment.partial * PLANES * TILE_PIXELS + item * 8;
+  return planes + first_of_tile(grid, segment.tile) +
+         (size_t)(item * 8 / TILE_WIDTH) * grid.stride + item * 8 % TILE_WIDTH;
+}
+
+// Between the tile and planes, which hold what others do (opacity.cl).
+static inline void take_pixels(double* tile, __global const float* from, size_t plane,
+                               int is_empty) {
+  double8 numbers[NUMBERS];
+  if (!is_empty) load_numbers(from, plane, numbers);
+  for (int c = 0; c < NUMBERS; ++c) {
+    const double8 number = is_empty ? (double8)(0.0) : numbers[c];
+    store_doubles(c < SUMS ? number : transmittance_of(number), tile + c * PLANE);
   }
 }
 
-static inline Pixels give_pixels(const double* tile) {
-  Pixels pixels;
-  for (int c = 0; c < SUMS; ++c) {
-    pixels.light[c] = load_doubles(tile + c * PLANE);
-#if LIGHT_ORDERED
-    const double8 passing = load_doubles(tile + (c + SUMS) * PLANE);
-    pixels.depth[c] = -log(max(passing, (double8)(DARKEST)));
-#endif
+static inline void give_pixels(const double* tile, __global float* to, size_t plane) {
+  double8 numbers[NUMBERS];
+  for (int c = 0; c < NUMBERS; ++c) {
+    const double8 number = load_doubles(tile + c * PLANE);
+    numbers[c] = c < SUMS ? number : carry((double8)(0.0), 1.0 - number, number);
   }
-  return pixels;
+  store_numbers(numbers, to, plane);
 }

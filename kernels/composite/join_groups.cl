@@ -6,8 +6,9 @@
 #include "kernels/common/grid.h"
 #include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
+#include "kernels/common/lanes.cl"
 #include "kernels/composite/composite.h"
-#include "kernels/composite/layer_behind.cl"
+#include "kernels/composite/planes.cl"
 
 #define TILE_PIXELS (TILE_WIDTH * TILE_HEIGHT)
 #define GROUPS_OF_TILE (TILE_PIXELS / GROUP_ITEMS)
@@ -43,22 +44,17 @@ __kernel OF_GROUPS void join(const CompositeParameters p, __global const Grid* g
       end_of_tile(&end, segments, id, joins ? p.end_segment : min(id + 1, p.end_segment)) - id;
   if (!joins) return;
   const Grid grid = grids[grid_of_tile(grids, p.grid_count, first.tile)];
-  const uint in_grid = first.tile - grid.first_tile;
-  const uint row = in_grid / (uint)grid.tiles_x * TILE_HEIGHT + pixel / TILE_WIDTH;
-  const uint column = in_grid % (uint)grid.tiles_x * TILE_WIDTH + pixel % TILE_WIDTH;
-  __global float* own = planes + first_float(grid) + (size_t)row * grid.stride + column;
+  __global float* own = planes + first_of_tile(grid, first.tile) +
+                        (size_t)(pixel / TILE_WIDTH) * grid.stride + pixel % TILE_WIDTH;
   // Kept where no store can change it, so that layers are read before they are wanted.
-  float front[PLANES];
-  for (int c = 0; c < PLANES; ++c)
-    front[c] = own[(size_t)c * grid.plane_size];
-  __global const float* layer = partials + (size_t)first.partial * PLANES * TILE_PIXELS + pixel;
+  VALUE front[NUMBERS];
+  load_numbers(own, grid.plane_size, front);
+  __global const float* layers = partials + (size_t)first.partial * PLANES * TILE_PIXELS + pixel;
 #pragma unroll 4
   for (uint k = 0; k < count; ++k) {
-    float behind[PLANES];
-    for (int c = 0; c < PLANES; ++c)
-      behind[c] = layer[((size_t)k * PLANES + c) * TILE_PIXELS];
-    add_layer(front, behind);
+    VALUE behind[NUMBERS];
+    load_numbers(layers + (size_t)k * PLANES * TILE_PIXELS, TILE_PIXELS, behind);
+    add_behind(front, behind);
   }
-  for (int c = 0; c < PLANES; ++c)
-    own[(size_t)c * grid.plane_size] = front[c];
+  store_numbers(front, own, grid.plane_size);
 }

@@ -1,16 +1,17 @@
 // How much of what lies behind a pixel's layers they take away, as planes carry it, on VALUEs
-// (lanes.cl, lanes_of_16.cl): the opacity 1 - exp(-depth), which keeps depths of 1e-8. With
-// KEEP_TRANSMITTANCE, where sources may be so bright that they show through an opacity close
-// to 1, minus the transmittance from an opacity of one half on: it keeps its own digits.
+// (lanes.cl, lanes_of_16.cl, extended_layers.cl): the opacity 1 - exp(-depth), which keeps depths
+// of 1e-8. With KEEP_TRANSMITTANCE, where sources may be so bright that they show through an
+// opacity close to 1, minus the transmittance from an opacity of one half on: it keeps its own
+// digits.
 #include "kernels/common/common.cl"
 
 #if KEEP_TRANSMITTANCE
 OVERLOADED static inline VALUE opacity_of(VALUE carried) {
-  return carried + select((VALUE)(0.0f), (VALUE)(1.0f), carried < 0.0f);
+  return carried + (carried < 0.0f ? (VALUE)(1.0f) : (VALUE)(0.0f));
 }
 
 OVERLOADED static inline VALUE transmittance_of(VALUE carried) {
-  return select(1.0f - carried, -carried, carried < 0.0f);
+  return carried < 0.0f ? -carried : 1.0f - carried;
 }
 
 // What is carried behind one more layer, which takes `taken` of all light away and leaves
@@ -19,7 +20,7 @@ OVERLOADED static inline VALUE transmittance_of(VALUE carried) {
 OVERLOADED static inline VALUE carry(VALUE carried, VALUE taken, VALUE left) {
   // Differences of the error function may be negative by their error: the sign is taken.
   const VALUE opacity = max(carried + taken, (VALUE)(0.0f));
-  return select(-max(left, (VALUE)(1.17549435e-38f)), opacity, carried >= 0.0f & opacity < 0.5f);
+  return (carried >= 0.0f & opacity < 0.5f) ? opacity : -max(left, (VALUE)(1.17549435e-38f));
 }
 #else
 OVERLOADED static inline VALUE opacity_of(VALUE carried) {

@@ -6,6 +6,7 @@
 #include "kernels/common/lanes.cl"
 #include "kernels/common/prefetch.cl"
 #include "kernels/composite/patch.cl"
+#include "kernels/composite/planes.cl"
 #include "kernels/composite/rows.cl"
 
 // Sums of light, of which there are three, begin with nothing in every list and are added to what
@@ -30,11 +31,8 @@ typedef struct TileInPlanes {
 } TileInPlanes;
 
 static inline TileInPlanes tile_in_planes(__global float* planes, const Grid grid, uint tile) {
-  const uint in_grid = tile - grid.first_tile;
   TileInPlanes place;
-  place.corner = planes + first_float(grid) +
-                 (size_t)(in_grid / (uint)grid.tiles_x) * TILE_HEIGHT * grid.stride +
-                 (size_t)(in_grid % (uint)grid.tiles_x) * TILE_WIDTH;
+  place.corner = planes + first_of_tile(grid, tile);
   place.plane_size = grid.plane_size;
   place.stride = grid.stride;
   return place;

@@ -2,7 +2,7 @@
 #pragma once
 
 // src/between/interpolation.h, ColumnBetween.
-struct InterpolateParameters {
+typedef struct InterpolateParameters {
   unsigned int in_first;            // particles of the first snapshot
   unsigned int particles;           // those and the ones that appear
   unsigned int particles_of_item;   // per work-item
@@ -11,10 +11,10 @@ struct InterpolateParameters {
   int logarithmic;
   float fraction;
   float vanishing, appearing;  // factors on particles that fade
-};
+} InterpolateParameters;
 
 // Of positions, PathNumbers. Strides are 0 where there are no velocities.
-struct PathParameters {
+typedef struct PathParameters {
   float shift_high[3], shift_low[3];
   float size_high, size_low, inverse_size;
   float lower[3], upper[3];
@@ -23,7 +23,4 @@ struct PathParameters {
   float from_first, from_second;
   int is_periodic, is_straight;
   int first_velocity_stride, second_velocity_stride;
-};
-
-typedef struct InterpolateParameters InterpolateParameters;
-typedef struct PathParameters PathParameters;
+} PathParameters;

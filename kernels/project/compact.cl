@@ -2,10 +2,9 @@
 #include "kernels/project/project.h"
 
 // Group: one block, whose splats lie at block * stride, and come to lie behind those of the blocks
-// before, from `first_slot` on, with their keys. `words` of a splat, of which there are two where
-// it is in extended numbers: its keys are moved with has_keys only.
+// before, from `first_slot` on, with their keys. `words` of a splat.
 __kernel void compact(const uint first_slot, const uint stride, const uint words,
-                      const uint has_keys, const uint has_ends, __global const BlockCounts* counts,
+                      const uint has_ends, __global const BlockCounts* counts,
                       __global const uint* offsets, __global const uint* splats,
                       __global const uint* keys, __global const ushort* key_ends,
                       __global uint* to_splats, __global uint* to_keys, __global ushort* to_ends,
@@ -16,7 +15,7 @@ __kernel void compact(const uint first_slot, const uint stride, const uint words
   __global uint* target = to_splats + (size_t)to * words;
   for (size_t i = get_local_id(0); i < (size_t)count * words; i += get_local_size(0))
     target[i] = source[i];
-  for (uint k = get_local_id(0); has_keys && k < count; k += get_local_size(0)) {
+  for (uint k = get_local_id(0); k < count; k += get_local_size(0)) {
     to_keys[to + k] = keys[from + k];
     if (has_ends) to_ends[to + k] = key_ends[from + k];
     order[to + k] = to + k;

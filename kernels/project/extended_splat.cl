@@ -2,14 +2,17 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/splat.h"
-#include "kernels/extended/extended_splat.h"
 #include "kernels/project/amplitudes.cl"
 #include "kernels/project/project.h"
-#include "kernels/project/splat_arrays.cl"
 #include "kernels/project/splat_widths.cl"
 #include "kernels/project/wide_angle.cl"
 
 #pragma OPENCL FP_CONTRACT OFF
+
+// Of one lane.
+INLINED REAL real_of(VALUE values, uint k) {
+  return ((const REAL*)&values)[k];
+}
 
 INLINED FloatPair pair_of(REAL number) {
   FloatPair pair;
@@ -40,17 +43,15 @@ INLINED Amplitudes amplitudes_of_lane(const SplatLanes* s, uint k, const Compone
   return found;
 }
 
-INLINED ExtendedSplat extended_splat(const SplatArrays* found, uint k,
+INLINED ExtendedSplat extended_splat(const SplatLanes* s, uint k,
                                      __global const ComponentColors* component_colors,
                                      __global const float* knots, const ProjectParameters p) {
-  const SplatLanes* const s = &found->lanes;
   const Amplitudes amplitudes = amplitudes_of_lane(s, k, component_colors[p.component], knots, p);
   const REAL3 summed = LIGHT_EMISSION ? amplitudes.emission : amplitudes.absorption;
   ExtendedSplat splat;
   splat.x = pair_of(real_of(s->x, k));
   splat.y = pair_of(real_of(s->y, k));
   splat.sigma = pair_of(real_of(s->sigma, k));
-  splat.radius = value_of(s->radius, k);
   splat.cut = pair_of(p.kernel_cut * (FACE_OF_CUBE ? 1.0f : real_of(s->sigma, k)));
   splat.summed[0] = pair_of(summed.x);
   splat.summed[1] = pair_of(summed.y);
@@ -59,8 +60,7 @@ INLINED ExtendedSplat extended_splat(const SplatArrays* found, uint k,
   splat.emission[1] = pair_of(amplitudes.emission.y);
   splat.emission[2] = pair_of(amplitudes.emission.z);
 #if ELLIPSES
-  splat.along_x.sigma = pair_of(real_of(s->sigma_x, k));
-  splat.along_x.radius = value_of(s->radius_x, k);
+  splat.sigma_x = pair_of(real_of(s->sigma_x, k));
 #endif
 #if FACE_OF_CUBE
   splat.tilt.squared_width = pair_of(real_of(s->face.squared_width, k));
@@ -71,7 +71,6 @@ INLINED ExtendedSplat extended_splat(const SplatArrays* found, uint k,
 }
 
 INLINED ExtendedSplat copy_of(const Copy copy, ExtendedSplat splat, const ProjectParameters p) {
-  if (!COPIES) return splat;
   splat.x = pair_of(number_of(splat.x) + 0.5f * (float)copy.half_periods * p.period);
   if ((copy.half_periods & 1) != 0)
     splat.y = pair_of(OF_POLE(p.twice_pole, copy.pole) - number_of(splat.y));

@@ -13,9 +13,7 @@
 #include "kernels/common/prefetch.cl"
 #include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
-#include "kernels/extended/extended_splat.h"
 #include "kernels/project/depth_key.cl"
-#include "kernels/project/extended_splat.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_arrays.cl"
@@ -159,20 +157,15 @@ __attribute__((noinline)) static void project_block(
       const ulong key = SORT_KEYS ? (ulong)found.sort_keys[k] : 0ul;
       if (SORT_KEYS && !is_in_window(key, p)) continue;
       Splat splat;
-      ExtendedSplat extended;
-      if (OUTPUT_SPLATS) splat = splat_of(&found, k);
-      if (OUTPUT_SPLATS && EXTENDED_NUMBERS)
-        extended = extended_splat(&found, k, component_colors, knots, p);
+      if (OUTPUT_SPLATS) splat = splat_of(&found, k, component_colors, knots, p);
       const Copies copies = copies_of(&found, k, p);
       for (int number = copies.first; number <= copies.last; ++number) {
         if (OUTPUT_SPLATS) {
-          const Copy copy = copy_of_number(number, copies);
           Splat listed = splat;
-          if (COPIES) put_copy(&listed, copy, p);
+          if (COPIES) put_copy(&listed, copy_of_number(number, copies), p);
           __global Splat* kept = to.splats + slot;
           ask_to_write(kept + SPLATS_WRITTEN_AHEAD);
           store_splat(&found, k, listed, kept);
-          if (EXTENDED_NUMBERS) to.extended_splats[slot] = copy_of(copy, extended, p);
           if (COUNT_TILES) {
             list_splat(listed, kept, grids + grid_of(listed), is_visible, counted, to.tiles + slot,
                        &waiting);
@@ -209,14 +202,14 @@ __kernel void project(const ProjectParameters p, const SharpParameters e,
                       __global ushort* key_ends, __global const WidthNeeds* width_needs,
                       __global const uint* left_out,
                       __global const ComponentColors* component_colors, __global const float* knots,
-                      __global ExtendedSplat* extended_splats, __global uint* key_counts,
-                      __global KeyBins* key_bins, __global const Grid* grids,
-                      __global uint* tile_counts, __global uint* tiles) {
+                      __global uint* key_counts, __global KeyBins* key_bins,
+                      __global const Grid* grids, __global uint* tile_counts,
+                      __global uint* tiles) {
   const uint block = piece_of_item(blocks_of(p));
   if (block == NO_PIECE) return;
   const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
                                      sort_fields, own_colors);
-  const ProjectTargets targets = {counts,     splats,   keys,        key_ends, extended_splats,
+  const ProjectTargets targets = {counts,     splats,   keys,        key_ends,
                                   key_counts, key_bins, tile_counts, tiles};
   project_block(block, &p, &e, NUMBERS_OF_LANES, &columns, offsets, width_needs, left_out,
                 component_colors, knots, grids, &targets);

@@ -39,12 +39,12 @@
 #define KEY_BINS 65536
 
 // An integer of 64 bits.
-struct WideInteger {
+typedef struct WideInteger {
   unsigned int low, high;
-};
+} WideInteger;
 
 // What depth keys are made from (src/scene/depth_key.h, DepthKeyScale).
-struct DepthKeyParameters {
+typedef struct DepthKeyParameters {
   struct WideInteger origin_from_camera[3];
   struct WideInteger forward[3];
   int finest_unit, unit;
@@ -52,15 +52,15 @@ struct DepthKeyParameters {
   struct WideInteger near_key, far_key;
   struct WideInteger near_factor;  // 0: near_key holds
   int near_exponent;
-};
+} DepthKeyParameters;
 
 // Of splats of an octave of widths (plan.h, WidthNeed).
-struct WidthNeeds {
+typedef struct WidthNeeds {
   float light[WIDTH_OCTAVES], farther[WIDTH_OCTAVES];
-};
+} WidthNeeds;
 
 // Which particles a launch takes, and where they go.
-struct ProjectLaunch {
+typedef struct ProjectLaunch {
   unsigned int first_particle, end_particle;  // of the component
   unsigned int block_particles;               // per work-item
   unsigned int first_block;                   // of the component, in offsets and counts
@@ -73,7 +73,7 @@ struct ProjectLaunch {
   // the lowest bit of what numbers the bins in which such keys are counted.
   struct WideInteger window_first, window_end;
   int bin_shift;
-};
+} ProjectLaunch;
 
 // Constants of the projection of one component: floats, or doubles in extended precision.
 #ifdef __cplusplus
@@ -181,42 +181,34 @@ struct ProjectParameters {
 };
 
 // What one block of particles became.
-struct BlockCounts {
+typedef struct BlockCounts {
   unsigned int visible, bad;
   unsigned int too_sharp;  // for the frame's precision, of all in the whole picture
   unsigned int around;     // the camera: those are not drawn as splats
-};
+} BlockCounts;
 
 // The bins of the keys of one block's splats; least > most where it has none.
-struct KeyBins {
+typedef struct KeyBins {
   unsigned int least, most;
-};
+} KeyBins;
 
 // What a block of particles is wherever the camera stands (boxes.cl).
-struct BlockBox {
+typedef struct BlockBox {
   float lower[3], upper[3];  // around the good ones; lower > upper where none is
   float largest_h;
   unsigned int bad;
-};
+} BlockBox;
 
 // What the places of sharp splats follow from in extended numbers, of one component, beside
 // ProjectParameters (sharp_places.cl).
-struct SharpParameters {
+typedef struct SharpParameters {
   float position[3][3];  // of the camera, relative to the component's origin: a sum of three
   struct FloatPair right[3], down[3], forward[3];
   struct FloatPair pixels_per_length;
   struct FloatPair center_from_middle_x, center_from_middle_y;
   struct FloatPair eye_offset, turn_axis[3];  // as in ProjectParameters
-};
+} SharpParameters;
 
-typedef struct WideInteger WideInteger;
-typedef struct DepthKeyParameters DepthKeyParameters;
-typedef struct WidthNeeds WidthNeeds;
-typedef struct BlockBox BlockBox;
-typedef struct BlockCounts BlockCounts;
-typedef struct KeyBins KeyBins;
-typedef struct ProjectLaunch ProjectLaunch;
-typedef struct SharpParameters SharpParameters;
 #ifndef __cplusplus
 typedef struct ProjectParameters ProjectParameters;
 typedef struct FieldScaling FieldScaling;

@@ -9,9 +9,7 @@
 #include "kernels/common/group_sums.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/splat.h"
-#include "kernels/extended/extended_splat.h"
 #include "kernels/project/depth_key.cl"
-#include "kernels/project/extended_splat.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_arrays.cl"
@@ -51,9 +49,8 @@ __kernel OF_GROUPS void project(
     __global const uint* offsets, __global BlockCounts* counts, __global Splat* splats,
     __global uint* keys, __global ushort* key_ends, __global const WidthNeeds* width_needs,
     __global const uint* left_out, __global const ComponentColors* component_colors,
-    __global const float* knots, __global ExtendedSplat* extended_splats, __global uint* key_counts,
-    __global KeyBins* key_bins, __global const Grid* grids, __global uint* tile_counts,
-    __global uint* tiles) {
+    __global const float* knots, __global uint* key_counts, __global KeyBins* key_bins,
+    __global const Grid* grids, __global uint* tile_counts, __global uint* tiles) {
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
   const uint item = get_local_id(0), block = p.launch.first_block + get_group_id(0);
@@ -78,12 +75,10 @@ __kernel OF_GROUPS void project(
     count = is_in_window(key, p);
   }
   Splat splat;
-  ExtendedSplat extended;
   SplatArrays found;
   if (count) {
     spread(lanes, 0, &found);
-    splat = splat_of(&found, 0);
-    if (EXTENDED_NUMBERS) extended = extended_splat(&found, 0, component_colors, knots, p);
+    splat = splat_of(&found, 0, component_colors, knots, p);
   }
   Copies copies = one_copy();
   if (COPIES && count) {
@@ -93,11 +88,9 @@ __kernel OF_GROUPS void project(
   uint total;
   uint slot = p.launch.first_slot + offsets[block] + group_scan(count, sums, &total);
   for (uint k = 0; OUTPUT_SPLATS && k < count; ++k, ++slot) {
-    const Copy copy = copy_of_number(copies.first + (int)k, copies);
     Splat listed = splat;
-    if (COPIES) put_copy(&listed, copy, p);
+    if (COPIES) put_copy(&listed, copy_of_number(copies.first + (int)k, copies), p);
     splats[slot] = listed;
-    if (EXTENDED_NUMBERS) extended_splats[slot] = copy_of(copy, extended, p);
     if (OUTPUT_KEYS) {
       keys[slot] = (uint)(key >> 16);
       if (!p.sort_by_field) key_ends[slot] = (ushort)key;

@@ -4,7 +4,7 @@
 #include "kernels/common/lanes.cl"
 #include "kernels/common/splat.h"
 #include "kernels/common/words.cl"
-#include "kernels/extended/extended_splat.h"
+#include "kernels/project/extended_splat.cl"
 #include "kernels/project/project.h"
 #include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_place.cl"
@@ -37,17 +37,6 @@ typedef struct SplatArrays {
   uint have_several;                       // a bit for each that touches several tiles
   int has_known_tiles;
 } SplatArrays;
-
-// Of one lane.
-INLINED REAL real_of(VALUE values, uint k) {
-  return ((const REAL*)&values)[k];
-}
-INLINED float value_of(VALUE values, uint k) {
-  return (float)real_of(values, k);
-}
-INLINED int integer_of(INTEGER values, uint k) {
-  return ((const int*)&values)[k];
-}
 
 #if LANES > 1
 // Word by word of eight splats to splat by splat, in three steps of neighbors.
@@ -108,7 +97,9 @@ INLINED void store_splat(const SplatArrays* found, uint k, const Splat splat, __
     *to = splat;
 }
 
-INLINED Splat splat_of(const SplatArrays* a, uint k) {
+INLINED Splat splat_of(const SplatArrays* a, uint k,
+                       __global const ComponentColors* component_colors,
+                       __global const float* knots, const ProjectParameters p) {
   if (SPLATS_OF_EIGHT_WORDS) return a->splats[k];
   const SplatLanes* const s = &a->lanes;
   Splat splat;
@@ -141,6 +132,9 @@ INLINED Splat splat_of(const SplatArrays* a, uint k) {
 #if TILES_IN_SPLAT
   splat.tiles = (uint)a->tiles[k];
 #endif
+#if EXTENDED_NUMBERS
+  splat.extended = extended_splat(s, k, component_colors, knots, p);
+#endif
 #if WHOLE_SECTORS
   splat.unused = 0;
 #endif
@@ -153,6 +147,21 @@ INLINED Copies copies_of(const SplatArrays* found, uint k, const ProjectParamete
   const SplatLanes* const s = &found->lanes;
   return copies_in_picture(value_of(s->x, k), value_of(s->y, k), value_of(s->radius_x, k),
                            value_of(s->radius, k), p);
+}
+
+// Puts a splat where its copy is.
+static inline void put_copy(Splat* splat, const Copy copy, const ProjectParameters p) {
+  const uint coarser = splat->component_and_grid >> 24;
+  splat->x += (int)((copy.half_periods * wide_integer(p.period_units)) >> (coarser + 1));
+#if EXTENDED_NUMBERS
+  splat->extended = copy_of(copy, splat->extended, p);
+#endif
+  if ((copy.half_periods & 1) == 0) return;
+  splat->y = (int)(wide_integer(OF_POLE(p.twice_pole_units, copy.pole)) >> coarser) - splat->y;
+#if FINE_PLACES
+  const int fraction_y = -((int)splat->place_fractions >> 16);
+  splat->place_fractions = (splat->place_fractions & 0xffffu) | ((uint)fraction_y << 16);
+#endif
 }
 
 static inline uint count_true(INTEGER mask) {
@@ -168,9 +177,8 @@ static inline uint count_true(INTEGER mask) {
 typedef struct ProjectTargets {
   __global BlockCounts* counts;
   __global Splat* splats;
-  __global uint* keys;        // the upper 32 bits of sort keys
-  __global ushort* key_ends;  // the 16 bits below, of depths
-  __global ExtendedSplat* extended_splats;
+  __global uint* keys;         // the upper 32 bits of sort keys
+  __global ushort* key_ends;   // the 16 bits below, of depths
   __global uint* key_counts;   // of each bin (sort_keys.cl)
   __global KeyBins* key_bins;  // of each block
   __global uint* tile_counts;  // of each block: how many of its splats touch a tile

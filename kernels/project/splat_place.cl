@@ -55,19 +55,3 @@ INLINED PlaceLanes splat_place(VALUE x, VALUE x_low, VALUE y, VALUE y_low, VALUE
   }
   return place;
 }
-
-static inline long in_long(struct WideInteger units) {
-  return (long)((ulong)units.low | ((ulong)units.high << 32));
-}
-
-// Puts a splat where its copy is.
-static inline void put_copy(Splat* splat, const Copy copy, const ProjectParameters p) {
-  const uint coarser = splat->component_and_grid >> 24;
-  splat->x += (int)((copy.half_periods * in_long(p.period_units)) >> (coarser + 1));
-  if ((copy.half_periods & 1) == 0) return;
-  splat->y = (int)(in_long(OF_POLE(p.twice_pole_units, copy.pole)) >> coarser) - splat->y;
-#if FINE_PLACES
-  const int fraction_y = -((int)splat->place_fractions >> 16);
-  splat->place_fractions = (splat->place_fractions & 0xffffu) | ((uint)fraction_y << 16);
-#endif
-}

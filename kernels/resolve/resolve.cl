@@ -5,9 +5,11 @@
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
+#if EXTENDED_NUMBERS
+#include "kernels/common/double_lanes.cl"
+#endif
 #include "kernels/composite/opacity.cl"
 #include "kernels/composite/shape.cl"
-#include "kernels/extended/precise.cl"
 #include "kernels/resolve/resolve.h"
 
 // The light behind everything: a colour, or a picture with one plane per channel, in rows
@@ -40,30 +42,30 @@ INLINED ChannelLight light_of_sum(float8 sum, float source) {
   return light;
 }
 
-// The two parts of a sum (extended_pixels.cl); in the ordered plan three more of depths.
-INLINED ChannelLight light_of_extended(__global const float* parts, size_t plane, float source) {
-  const float8 sum = vload8(0, parts), low = vload8(0, parts + plane);
+#if EXTENDED_NUMBERS
+INLINED ChannelLight light_of_double_sum(double8 sum, float source) {
+  const double8 passed = exp_of_minus(min(sum, (double8)(700.0)));
+  const double8 opacity = select(1.0 - passed, sum * phi_of_thin(sum), sum < THIN_LAYER);
   ChannelLight light;
-  if (LIGHT_ORDERED) {
-    light.own = sum;
-    light.transmittance =
-        precise_exp_negative(vload8(0, parts + 6 * plane), vload8(0, parts + 7 * plane));
-    return light;
-  }
-  if (LIGHT_EMISSION) return light_of_sum(sum, source);
-  light.own = source * (sum * precise_phi(sum));
-  light.transmittance = precise_exp_negative(sum, low);
+  light.transmittance = convert_float8(passed);
+  light.own = source * convert_float8(opacity);
   return light;
 }
+#endif
 
+// Of extended numbers of floats' precision the first part serves, but of sums that are depths.
 INLINED ChannelLight light_of_channel(__global const float* pixels, size_t plane, size_t c,
                                       float source) {
-  if (EXTENDED_NUMBERS) return light_of_extended(pixels + 2 * c * plane, plane, source);
-  const float8 sum = vload8(0, pixels + c * plane);
+  __global const float* own = pixels + PLANES_OF_NUMBER * c * plane;
+  const float8 sum = vload8(0, own);
+#if EXTENDED_NUMBERS
+  if (!(LIGHT_ORDERED || LIGHT_EMISSION))
+    return light_of_double_sum(sum_of_parts(sum, vload8(0, own + plane)), source);
+#endif
   if (!LIGHT_ORDERED) return light_of_sum(sum, source);
   ChannelLight light;
   light.own = sum;
-  light.transmittance = transmittance_of(vload8(0, pixels + (c + 3) * plane));
+  light.transmittance = transmittance_of(vload8(0, own + 3 * PLANES_OF_NUMBER * plane));
   return light;
 }
 

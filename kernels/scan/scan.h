@@ -6,10 +6,8 @@
 #define SCAN_VALUES_OF_ITEM 8
 #define SCAN_STRETCH (GROUP_ITEMS * SCAN_VALUES_OF_ITEM)
 
-struct ScanParameters {
+typedef struct ScanParameters {
   unsigned int count;  // values
   // Sums of stretches are not scanned: every group adds up those before it.
   unsigned int adds_up_groups;
-};
-
-typedef struct ScanParameters ScanParameters;
+} ScanParameters;

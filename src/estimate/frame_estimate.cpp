@@ -98,9 +98,7 @@ class FrameBuffers {
     return blocks * block * splats_per_particle();
   }
 
-  std::uint64_t splats(std::uint64_t count) const {
-    return count * (variant_.splat_bytes() + variant_.extended_splat_bytes());
-  }
+  std::uint64_t splats(std::uint64_t count) const { return count * variant_.splat_bytes(); }
 
   std::uint64_t tiles(std::uint64_t splats) const {
     return splats * (variant_.rows ? sizeof(std::uint32_t)

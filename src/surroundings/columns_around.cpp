@@ -122,7 +122,7 @@ std::size_t whole_vectors(std::size_t count) {
 }
 
 // exp(-y) for 0 <= y <= 700, relative error 1e-14, as compilers can work it out for several
-// numbers at a time (kernels/extended/double_lanes.cl has the same).
+// numbers at a time (kernels/common/double_lanes.cl has the same).
 double exp_of_minus(double y) {
   constexpr double magic = 6755399441055744.0;  // 1.5 * 2^52: rounds to an integer in the low bits
   const double shifted = y * -1.4426950408889634 + magic;

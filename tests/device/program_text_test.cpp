@@ -12,18 +12,19 @@ namespace splotchcl::test {
 namespace {
 
 std::vector<ProgramSource> programs_of(const Variant& variant) {
-  std::vector<ProgramSource> programs = {bin_program(variant), composite_program(variant),
+  std::vector<ProgramSource> programs = {bin_program(variant),         composite_program(variant),
+                                         join_program(variant),        deepest_program(variant),
                                          list_around_program(variant), behind_program(variant),
-                                         resolve_program(variant)};
+                                         add_light_program(variant),   resolve_program(variant)};
   for (const ProjectOutput output :
        {ProjectOutput::splats, ProjectOutput::splats_and_keys, ProjectOutput::key_counts})
     programs.push_back(project_program(variant, output));
   if (variant.extended) return programs;
   if (variant.is_ordered()) programs.push_back(composite_with_clouds_program(variant));
   for (const ProgramSource& program :
-       {join_program(variant), composite_program(variant.of_slabs()),
-        join_program(variant.of_slabs()), certify_program(variant), refine_program(variant),
-        blur_program(variant), lay_slab_program(variant), deepest_program(variant)})
+       {composite_program(variant.of_slabs()), join_program(variant.of_slabs()),
+        certify_program(variant), refine_program(variant), blur_program(variant),
+        lay_slab_program(variant)})
     programs.push_back(program);
   return programs;
 }
@@ -38,8 +39,7 @@ std::vector<ProgramSource> programs_of_all_frames() {
           program_source("kernels/sort/sort_groups.cl"),
           program_source("kernels/sort/carry.cl"),
           program_source("kernels/scan/scan_groups.cl"),
-          program_source("kernels/common/clear.cl"),
-          program_source("kernels/composite/add_light.cl")};
+          program_source("kernels/common/clear.cl")};
 }
 
 class ProgramTexts : public StageTest {

@@ -10,7 +10,6 @@ namespace splotchcl::test {
 namespace {
 
 constexpr const char* shape_kernel = R"(
-#include "kernels/extended/precise.cl"
 __kernel void evaluate(__global const float* x, __global float* results) {
   const uint i = get_global_id(0);
   STORE(FUNCTION(LOAD(x + LANES * i)), results + LANES * i);
@@ -170,30 +169,17 @@ TEST_P(ShapeFunctions, LogarithmsOfNumbersNearOneErrByPartsOfThemselves) {
   EXPECT_LE(largest(x, evaluate("log2_positive", Precision::fast, x), part), 3e-7);
 }
 
-// Of kernels/extended/precise.cl.
-TEST_P(ShapeFunctions, PreciseExpAndPhiErrByARoundingOrTwo) {
-  const std::string define = "#define PRECISE_EXP(y) precise_exp_negative(y, (VALUE)(0.0f))\n";
-  const auto of_exp = [](double found, double y) { return found / std::exp(-y) - 1; };
-  const auto of_phi = [](double found, double y) {
-    return found / (y > 0 ? -std::expm1(-y) / y : 1) - 1;
-  };
-  const std::vector<float> far = evenly_spread(0, 80, 1 << 13), near = evenly_spread(0, 5, 1 << 13);
-  EXPECT_LE(largest(far, evaluate("PRECISE_EXP", Precision::full, far, define), of_exp), 1.3e-7);
-  // A division may err by 2.5 units of the last place (OpenCL 7.4); processors round it to half of
-  // one.
-  const double bound = 1.3e-7 + (device().traits.is_gpu ? 2 * 0x1p-23 : 0);
-  EXPECT_LE(largest(near, evaluate("precise_phi", Precision::full, near), of_phi), bound);
-}
-
-// Of kernels/extended/double_lanes.cl.
+// Of kernels/common/double_lanes.cl and kernels/composite/extended_means.cl.
 class DoubleLanes : public StageTest {
  protected:
   // The largest part of itself by which `function` errs at these.
   double largest_part(const std::string& function, const std::vector<float>& x,
                       const std::function<double(double)>& exact) {
     const Program program = device().programs.get(
-        {"kernels/extended/double_lanes.cl",
-         "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define FUNCTION " + function + "\n", "",
+        {"kernels/composite/extended_means.cl",
+         "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n#define TILE_WIDTH 64\n#define FUNCTION " +
+             function + "\n",
+         "",
          R"(
 __kernel void evaluate(__global const float* x, __global double* results) {
   const uint i = get_global_id(0);
@@ -221,6 +207,10 @@ TEST_F(DoubleLanes, ErrByThePartsThatTheirCommentsName) {
   EXPECT_LE(largest_part("complement_of_erf", evenly_spread(0, 10, 1 << 16),
                          [](double x) { return std::erfc(x); }),
             2e-13);
+  // y^5 / 720 of a phi of 0.985, at 0.03.
+  EXPECT_LE(largest_part("phi_of_thin", evenly_spread(1e-6, 0.03, 1 << 16),
+                         [](double y) { return -std::expm1(-y) / y; }),
+            3.43e-11);
 }
 
 // Means of wide splats, of kernels/composite/extended_means.cl.

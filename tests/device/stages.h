@@ -171,11 +171,11 @@ class Stages {
  private:
   void sort() { sorted_ = pipeline_->sorter().sort(std::move(keyed_)); }
   // As many as there are up to the last of these; between blocks of particles lie slots of none.
-  std::vector<shared::Splat> splats_in_slots(const SplatMemory& memory,
+  std::vector<shared::Splat> splats_in_slots(const Buffer<std::byte>& memory,
                                              const std::vector<std::uint32_t>& slots) {
     const std::size_t count = slots.empty() ? 0 : *std::max_element(slots.begin(), slots.end()) + 1;
     const std::size_t bytes = context().variant.splat_bytes();
-    const std::vector<std::byte> stored = read_as<std::byte>(memory.splats, count * bytes);
+    const std::vector<std::byte> stored = read_as<std::byte>(memory, count * bytes);
     std::vector<shared::Splat> splats(count);
     for (std::size_t i = 0; i < count; ++i)
       std::memcpy(&splats[i], stored.data() + i * bytes, sizeof(shared::Splat));

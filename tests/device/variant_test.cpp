@@ -122,8 +122,7 @@ class Sizes : public StageTest {
   static void expect_equal_sizes(ProgramSource source, const std::string& header,
                                  const std::vector<SharedStructure>& structures) {
     source.file = {};
-    for (const std::string& name :
-         std::vector<std::string>{"common/splat.h", "extended/extended_splat.h", header})
+    for (const std::string& name : std::vector<std::string>{"common/splat.h", header})
       source.more += "#include \"kernels/" + name + "\"\n";
     source.more += "__kernel void sizes(__global uint* result) {\n";
     for (std::size_t i = 0; i < structures.size(); ++i) {

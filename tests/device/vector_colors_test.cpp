@@ -134,7 +134,7 @@ TEST(VectorColorLanes, PassTheColorsOnEitherWay) {
     ASSERT_GT(count, 500u);
     const std::vector<std::uint32_t> slots = stages.slots();
     const std::vector<float> splats =
-        stages.read_as<float>(stages.keyed().splats.splats, (slots.back() + 1) * floats);
+        stages.read_as<float>(stages.keyed().splats, (slots.back() + 1) * floats);
     std::set<float> reds;
     for (const std::uint32_t slot : slots)
       reds.insert(splats[slot * floats + red_of_splat]);

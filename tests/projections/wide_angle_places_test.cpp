@@ -74,7 +74,7 @@ class WideAnglePlaces : public StageTest,
     const std::size_t words = stages.context().variant.splat_bytes() / sizeof(float);
     const std::vector<std::uint32_t> slots = stages.slots();
     const std::size_t end = slots.empty() ? 0 : slots.back() + 1;
-    const auto values = stages.read_as<float>(stages.keyed().splats.splats, end * words);
+    const auto values = stages.read_as<float>(stages.keyed().splats, end * words);
     const double widening = static_cast<double>(stages.plan().splats.widening);
     std::vector<Placed> places;
     for (const std::size_t i : slots) {
@@ -97,27 +97,26 @@ class WideAnglePlaces : public StageTest,
 
   static std::vector<Placed> extended_places(Stages& stages) {
     const Variant& variant = stages.context().variant;
-    const std::size_t words = variant.extended_splat_bytes() / sizeof(float);
-    const std::size_t plain = variant.splat_bytes() / sizeof(float);
+    const std::size_t words = variant.splat_bytes() / sizeof(float);
+    const std::size_t plain = words - variant.extended_splat_bytes() / sizeof(float);
     const std::vector<std::uint32_t> slots = stages.slots();
     const std::size_t end = slots.empty() ? 0 : slots.back() + 1;
-    const auto values = stages.read_as<float>(stages.keyed().splats.extended, end * words);
-    const auto rounded = stages.read_as<float>(stages.keyed().splats.splats, end * plain);
+    const auto values = stages.read_as<float>(stages.keyed().splats, end * words);
     std::vector<Placed> places;
     for (const std::size_t i : slots) {
       shared::Splat splat;
-      std::memcpy(&splat, &rounded[i * plain], sizeof(splat));
-      const float* own = &values[i * words];
+      std::memcpy(&splat, &values[i * words], sizeof(splat));
+      const float* own = &values[i * words + plain];
       const shared::Grid& grid = stages.layout().grids.front();
       places.push_back({identity_of(splat), number(own) + grid.middle_x,
                         number(own + 2) + grid.middle_y, number(own + 4), 0});
       const std::size_t after = sizeof(shared::ExtendedSplat) / sizeof(float);
       if (stages.plan().is_face_of_cube) {
         // Single precision serves for the widths along the axes, not for this one.
-        const std::size_t tilt = after + sizeof(shared::ExtendedAlongX) / sizeof(float);
+        const std::size_t tilt = after + sizeof(shared::FloatPair) / sizeof(float);
         places.back().sigma = std::sqrt(number(own + tilt));
         places.back().is_face_width = true;
-      } else if (words > after) {
+      } else if (stages.plan().has_ellipses) {
         places.back().sigma_x = number(own + after);
       }
     }

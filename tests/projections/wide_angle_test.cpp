@@ -47,8 +47,7 @@ void expect_keys_and_places_of_the_oracle(DeviceContext& device, const Frame& fr
   const std::vector<std::uint64_t> keys = stages.keys();
   const std::vector<std::uint32_t> slots = stages.slots();
   ASSERT_GT(keys.size(), 400u);
-  const auto values =
-      stages.read_as<float>(stages.keyed().splats.splats, (slots.back() + 1) * words);
+  const auto values = stages.read_as<float>(stages.keyed().splats, (slots.back() + 1) * words);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     shared::Splat splat;
     std::memcpy(&splat, values.data() + slots[i] * words, sizeof(splat));

@@ -211,7 +211,7 @@ std::uint64_t splat_capacity(const FramePlan& plan, const Variant& variant,
   constexpr std::uint64_t key = sizeof(std::uint32_t) + sizeof(std::uint16_t);
   constexpr std::uint64_t place = sizeof(std::uint32_t);
   constexpr std::uint64_t sorted_into = 2 * sizeof(std::uint32_t);
-  const std::uint64_t splat = variant.splat_bytes() + variant.extended_splat_bytes();
+  const std::uint64_t splat = variant.splat_bytes();
   const std::uint64_t planes = layout.plane_floats * sizeof(float) * (plan.slabs > 0 ? 3 : 1);
   const std::uint64_t lists =
       traits.list_capacity * variant.tile_splat_bytes() + traits.sorted_chunk * (splat + place);

@@ -10,20 +10,14 @@
 #include "device/frame/shared.h"
 #include "device/opencl/buffer_pool.h"
 
-// What the stages hand on. Each owns its memory, which goes back to the pool with it.
+// What the stages hand on. Each owns its memory, which goes back to the pool with it. Splats have
+// Variant::splat_bytes() each.
 namespace splotchcl {
-
-// Splats in memory, Variant::splat_bytes() each.
-struct SplatMemory {
-  Buffer<std::byte> splats;
-  // The same splats in extended precision only, Variant::extended_splat_bytes() each.
-  Buffer<std::byte> extended;
-};
 
 // One chunk of particles, projected: block b begins at slot b * stride and holds as many
 // splats as counts[b] says.
 struct SplatBlocks {
-  SplatMemory splats;
+  Buffer<std::byte> splats;
   Buffer<shared::BlockCounts> counts;
   // What binning begins with, and takes (tiles.cl): how many splats of each block touch each tile;
   // and per slot, which tiles these are.
@@ -56,7 +50,7 @@ struct ParticleCounts {
 
 // All splats of a frame in component and file order, with their sort keys, which have no gaps.
 struct KeyedSplats {
-  SplatMemory splats;
+  Buffer<std::byte> splats;
   Buffer<std::uint32_t> keys;      // their upper 32 bits
   Buffer<std::uint16_t> key_ends;  // slot by slot the 16 bits below; none where a field is the key
   Buffer<std::uint32_t> order;     // the slot of splat i: i, or farther behind
@@ -71,7 +65,7 @@ struct KeyedSplats {
 
 // The same, nearest first: splat order[0], order[1], ...
 struct SortedSplats {
-  SplatMemory splats;
+  Buffer<std::byte> splats;
   Buffer<std::uint32_t> order;
   std::uint32_t count = 0;
 };

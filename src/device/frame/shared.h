@@ -10,7 +10,6 @@ namespace splotchcl::shared {
 #include "kernels/common/clear.h"
 #include "kernels/common/group.h"
 #include "kernels/common/splat.h"
-#include "kernels/extended/extended_splat.h"
 // The others use what stands there.
 #include "kernels/bin/bin.h"
 #include "kernels/certify/certify.h"
@@ -40,8 +39,7 @@ static_assert(has_words<ExtendedTilt, 6>);
 static_assert(has_words<CubeFace, 7>);
 static_assert(has_words<OwnColor, 3>);
 static_assert(has_words<Splat, 7>);
-static_assert(has_words<ExtendedAlongX, 3>);
-static_assert(has_words<ExtendedSplat, 21>);
+static_assert(has_words<ExtendedSplat, 20>);
 static_assert(has_words<ComponentColors, 10>);
 static_assert(has_words<DepthKeyParameters, 22>);
 static_assert(has_words<ProjectLaunch, 17>);

@@ -93,12 +93,13 @@ std::size_t Variant::splat_bytes() const {
   return sizeof(shared::Splat) + (ellipses ? sizeof(shared::WidthAlongX) : 0) +
          (face_of_cube ? sizeof(shared::Tilt) + sizeof(cl_float) : 0) +
          (vector_colors ? sizeof(shared::OwnColor) : 0) + (fine_places ? sizeof(cl_uint) : 0) +
-         (has_whole_sectors() ? sizeof(cl_uint) : 0) + (has_own_tiles() ? sizeof(cl_uint) : 0);
+         (has_whole_sectors() ? sizeof(cl_uint) : 0) + (has_own_tiles() ? sizeof(cl_uint) : 0) +
+         extended_splat_bytes();
 }
 
 std::size_t Variant::extended_splat_bytes() const {
   if (!extended) return 0;
-  return sizeof(shared::ExtendedSplat) + (ellipses ? sizeof(shared::ExtendedAlongX) : 0) +
+  return sizeof(shared::ExtendedSplat) + (ellipses ? sizeof(shared::FloatPair) : 0) +
          (face_of_cube ? sizeof(shared::ExtendedTilt) : 0);
 }
 

@@ -44,15 +44,17 @@ struct Variant {
   // sorted order lie in one line of the cache.
   bool has_own_tiles() const { return rows && !ellipses && !extended; }
   // Splats of seven words are gathered in one sector of a GPU's memory with one more.
-  bool has_whole_sectors() const { return !rows && !ellipses && !vector_colors && !fine_places; }
+  bool has_whole_sectors() const {
+    return !rows && !ellipses && !vector_colors && !fine_places && !extended;
+  }
   // Bytes of the structures that the variant makes larger or smaller (shared.h).
   std::size_t splat_bytes() const;
-  std::size_t extended_splat_bytes() const;  // 0 where there are none
+  std::size_t extended_splat_bytes() const;  // of these; 0 where there are none
   std::size_t tile_splat_bytes() const;
   // A work-item that refines grids, lays slabs or makes the picture takes so many times eight
   // pixels: several on a processor, where it may be a call (common.cl, KERNEL_BODY).
   std::size_t eights_of_item() const { return rows ? 8 : 1; }
-  int pixels_behind() const { return extended ? 8 : rows ? 64 : 1; }  // of a work-item
+  int pixels_behind() const { return rows ? 64 : 1; }  // of a work-item
   // Shapes on faces of a cube come eight pixels at a time.
   bool takes_rows_of_16() const { return rows && rows_of_16 && !face_of_cube; }
 

@@ -10,14 +10,13 @@
 namespace splotchcl {
 namespace {
 
-// What is in a packet, in this order: how many splats, keys, ends, splats, extended ones. Calls
-// take(buffer, values) with each of the device's buffers that has some, and how many of a splat.
+// What is in a packet, in this order: how many splats, keys, ends, splats. Calls take(buffer,
+// values) with each of the device's buffers that has some, and how many of a splat.
 template <class Take>
 void each_column(const StageContext& context, const KeyedSplats& keyed, const Take& take) {
   take(keyed.keys, std::size_t{1});
   if (keyed.key_ends.size() > 0) take(keyed.key_ends, std::size_t{1});
-  take(keyed.splats.splats, context.variant.splat_bytes());
-  if (context.variant.extended) take(keyed.splats.extended, context.variant.extended_splat_bytes());
+  take(keyed.splats, context.variant.splat_bytes());
 }
 
 template <class T>

@@ -77,7 +77,7 @@ void GroupBinner::count(CountedSplats& counted) const {
   Launch(device, "bin", program_.create_kernel("bin_find_tiles"))
       .value(parameters)
       .arg(context_.grids)
-      .arg(counted.splats->splats)
+      .arg(*counted.splats)
       .arg(*counted.order)
       .arg(counted.tiles_of_splats)
       .arg(counted.tile_counts)
@@ -140,7 +140,7 @@ void GroupBinner::make_lists(const CountedSplats& counted, const TileBand& band,
   Launch(device, "bin", program_.create_kernel("bin_make_entries"))
       .value(parameters)
       .arg(context_.grids)
-      .arg(counted.splats->splats)
+      .arg(*counted.splats)
       .arg(pairs.keys)
       .arg(pairs.values)
       .arg(context_.colors.components)
@@ -189,7 +189,7 @@ Binner::Binner(const StageContext& context)
   parameters_.blurs = grid_blurs(context.plan.pyramid);
 }
 
-CountedSplats Binner::start(const SplatMemory& splats) const {
+CountedSplats Binner::start(const Buffer<std::byte>& splats) const {
   CountedSplats counted;
   counted.parameters = parameters_;
   counted.splats = &splats;
@@ -254,7 +254,7 @@ void Binner::count_tiles(CountedSplats& counted) const {
   Launch(context_.device, "bin", program_.create_kernel("bin_count"))
       .value(counted.parameters)
       .arg(context_.grids)
-      .arg(counted.splats->splats)
+      .arg(*counted.splats)
       .arg(*counted.order)
       .arg(counted.tile_counts)
       .arg(counted.tiles)
@@ -325,7 +325,7 @@ void Binner::fill_lists(const CountedSplats& counted, const TileBand& band,
   Launch scatter(device, "bin", program_.create_kernel("bin_scatter"));
   scatter.value(parameters)
       .arg(context_.grids)
-      .arg(counted.splats->splats)
+      .arg(*counted.splats)
       .arg(*counted.order)
       .arg(*counted.blocks)
       .arg(counted.tile_counts)

@@ -23,7 +23,7 @@ std::vector<shared::Segment> cut_in_segments(const std::vector<std::uint32_t>& l
 // which outlive it.
 struct CountedSplats {
   shared::BinParameters parameters{};
-  const SplatMemory* splats = nullptr;
+  const Buffer<std::byte>* splats = nullptr;
   const Buffer<std::uint32_t>* order = nullptr;         // of sorted splats; for GPUs of all
   const Buffer<shared::BlockCounts>* blocks = nullptr;  // of a projection's
   Buffer<std::byte> in_order;                           // copies of sorted splats
@@ -77,7 +77,7 @@ class Binner {
   TileLists make_lists(const CountedSplats& counted, const TileBand& band) const;
 
  private:
-  CountedSplats start(const SplatMemory& splats) const;
+  CountedSplats start(const Buffer<std::byte>& splats) const;
   void cut_in_blocks(CountedSplats& counted) const;
   void count_tiles(CountedSplats& counted) const;
   void scan_blocks(CountedSplats& counted) const;

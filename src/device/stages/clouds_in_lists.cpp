@@ -202,7 +202,7 @@ void CloudsInLists::append(std::size_t begin, std::size_t end, KeyedSplats& keye
     const std::uint32_t slot = keyed.free_slots.empty()
                                    ? keyed.count + static_cast<std::uint32_t>(i)
                                    : keyed.free_slots[i];
-    write(*context_, splat_words(variant, cloud), slot * splat_bytes, keyed.splats.splats.memory());
+    write(*context_, splat_words(variant, cloud), slot * splat_bytes, keyed.splats.memory());
     if (keyed.key_ends.size() > 0) {
       const std::vector<std::uint16_t> key_end = {static_cast<std::uint16_t>(keys_[cloud])};
       write(*context_, key_end, slot * sizeof(std::uint16_t), keyed.key_ends.memory());

@@ -81,7 +81,7 @@ void Compositor::clear_grid(std::size_t g, Planes& planes) const {
   planes.used_grids |= 1u << g;
 }
 
-Planes Compositor::composite(const TileLists& lists, const SplatMemory& splats,
+Planes Compositor::composite(const TileLists& lists, const Buffer<std::byte>& splats,
                              Planes planes) const {
   if (lists.segment_count == 0) return planes;
   for (std::size_t g = 0; g < context_.layout.grids.size(); ++g) {
@@ -108,7 +108,7 @@ shared::CompositeParameters Compositor::parameters_of(const Part& part) const {
 }
 
 void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists& lists,
-                      const SplatMemory& splats, const Buffer<float>& partials,
+                      const Buffer<std::byte>& splats, const Buffer<float>& partials,
                       const Planes& planes) const {
   if (part.first == part.end) return;
   const Variant& variant = context_.variant;
@@ -120,7 +120,7 @@ void Compositor::draw(const Part& part, const Kernels& kernels, const TileLists&
       .arg(lists.entries)
       .arg(planes.light)
       .arg(partials)
-      .arg(splats.extended)
+      .arg(splats)
       .arg(kernels.clouds->entries)
       .arg(kernels.clouds->splats)
       .arg(kernels.clouds->directions)
@@ -139,26 +139,19 @@ void Compositor::join(const Part& part, const Kernels& kernels, const TileLists&
                       const Buffer<float>& partials, const Planes& planes) const {
   DeviceContext& device = context_.device;
   const Variant& variant = context_.variant;
-  const bool extended = variant.extended;
   const std::size_t count = part.end - part.first;
-  const compute::kernel kernel =
-      extended
-          ? kernels.composite.create_kernel("join_extended")
-          : device.programs
-                .get(&kernels == &slabs_ ? join_program(variant.of_slabs()) : join_program(variant))
-                .create_kernel("join");
-  Launch launch(device, "composite", kernel);
+  const Program program = device.programs.get(&kernels == &slabs_ ? join_program(variant.of_slabs())
+                                                                  : join_program(variant));
+  Launch launch(device, "composite", program.create_kernel("join"));
   launch.value(parameters_of(part))
       .arg(context_.grids)
       .arg(lists.segments)
       .arg(planes.light)
       .arg(partials);
-  if (extended) {
-    launch.run_groups(count, variant.items_of_tile());
-  } else if (!variant.rows) {
-    launch.run_groups(count * variant.tile_pixels() / GROUP_ITEMS, GROUP_ITEMS);
-  } else {
+  if (variant.rows) {
     launch.run_rows(variant.tile_height, count);
+  } else {
+    launch.run_groups(count * variant.tile_pixels() / GROUP_ITEMS, GROUP_ITEMS);
   }
 }
 

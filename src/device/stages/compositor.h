@@ -19,7 +19,7 @@ class Compositor {
   // No light at all, on the picture's own grid.
   Planes start() const;
   // `splats` are those that the lists were made of.
-  Planes composite(const TileLists& lists, const SplatMemory& splats, Planes planes) const;
+  Planes composite(const TileLists& lists, const Buffer<std::byte>& splats, Planes planes) const;
 
  private:
   // The kernels for some of the segments: of an ordered plan's coarse grids they add up.
@@ -33,7 +33,8 @@ class Compositor {
   };
   void clear_grid(std::size_t grid, Planes& planes) const;
   void draw(const Part& part, const Kernels& kernels, const TileLists& lists,
-            const SplatMemory& splats, const Buffer<float>& partials, const Planes& planes) const;
+            const Buffer<std::byte>& splats, const Buffer<float>& partials,
+            const Planes& planes) const;
   void join(const Part& part, const Kernels& kernels, const TileLists& lists,
             const Buffer<float>& partials, const Planes& planes) const;
   shared::CompositeParameters parameters_of(const Part& part) const;

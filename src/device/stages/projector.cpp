@@ -98,7 +98,7 @@ struct Projector::KeyTargets {
 struct Projector::Targets {
   const Buffer<std::uint32_t>& offsets;  // read: of each block's first splat
   const Buffer<shared::BlockCounts>& counts;
-  const SplatMemory& splats;
+  const Buffer<std::byte>& splats;
   const Buffer<std::uint32_t>& keys;
   const Buffer<std::uint16_t>& key_ends;
   // Of splats that are binned as they come.
@@ -137,13 +137,9 @@ Buffer<shared::WidthNeeds> Projector::upload_needs() const {
   return context_.device.pool.upload(std::vector{needs}, "needs of widths");
 }
 
-SplatMemory Projector::splat_memory(std::uint64_t splats, Filling filling) const {
-  BufferPool& pool = context_.device.pool;
-  SplatMemory memory;
-  memory.splats = pool.get<std::byte>(splats * context_.variant.splat_bytes(), "splat", filling);
-  memory.extended = pool.get<std::byte>(splats * context_.variant.extended_splat_bytes(),
-                                        "extended splat", filling);
-  return memory;
+Buffer<std::byte> Projector::splat_memory(std::uint64_t splats, Filling filling) const {
+  return context_.device.pool.get<std::byte>(splats * context_.variant.splat_bytes(), "splat",
+                                             filling);
 }
 
 std::vector<std::uint32_t> Projector::left_out_blocks(
@@ -178,14 +174,13 @@ void Projector::launch(ProjectOutput output, shared::ProjectParameters<float> pa
   pass_columns(launch, particles)
       .arg(targets.offsets)
       .arg(targets.counts)
-      .arg(targets.splats.splats)
+      .arg(targets.splats)
       .arg(targets.keys)
       .arg(targets.key_ends)
       .arg(width_needs_)
       .arg(left_out_buffer)
       .arg(context_.colors.components)
       .arg(context_.colors.knots)
-      .arg(targets.splats.extended)
       .arg(targets.key_counts ? targets.key_counts->counts : unused_);
   if (targets.key_counts)
     launch.arg(targets.key_counts->bins);
@@ -400,33 +395,23 @@ std::uint32_t Projector::project_window(const ParticleChunk& chunk,
          {pool.upload(first_slots(blocks, stride), "block offsets"), counts, apart.splats,
           apart.keys, apart.key_ends});
   const std::vector<std::uint32_t> first = first_splats(pool.download(counts, blocks));
-  const auto offsets = pool.upload(first, "block offsets");
-  const auto compact = [&](const Buffer<std::byte>& from, const Buffer<std::byte>& to,
-                           std::size_t splat_bytes, bool has_keys) {
-    Launch launch(context_.device, "project",
-                  context_.device.programs.get(program_source("kernels/project/compact.cl"))
-                      .create_kernel("compact"));
-    launch.value(first_slot)
-        .value(stride)
-        .value(static_cast<cl_uint>(splat_bytes / sizeof(cl_uint)))
-        .value(static_cast<cl_uint>(has_keys))
-        .value(static_cast<cl_uint>(keyed.key_ends.size() > 0))
-        .arg(counts)
-        .arg(offsets)
-        .arg(from)
-        .arg(apart.keys)
-        .arg(apart.key_ends)
-        .arg(to)
-        .arg(keyed.keys)
-        .arg(keyed.key_ends)
-        .arg(keyed.order);
-    run_by_blocks(launch, blocks);
-  };
-  const Variant& variant = context_.variant;
-  compact(apart.splats.splats, keyed.splats.splats, variant.splat_bytes(), true);
-  if (variant.extended) {
-    compact(apart.splats.extended, keyed.splats.extended, variant.extended_splat_bytes(), false);
-  }
+  Launch compact(context_.device, "project",
+                 context_.device.programs.get(program_source("kernels/project/compact.cl"))
+                     .create_kernel("compact"));
+  compact.value(first_slot)
+      .value(stride)
+      .value(static_cast<cl_uint>(context_.variant.splat_bytes() / sizeof(cl_uint)))
+      .value(static_cast<cl_uint>(keyed.key_ends.size() > 0))
+      .arg(counts)
+      .arg(pool.upload(first, "block offsets"))
+      .arg(apart.splats)
+      .arg(apart.keys)
+      .arg(apart.key_ends)
+      .arg(keyed.splats)
+      .arg(keyed.keys)
+      .arg(keyed.key_ends)
+      .arg(keyed.order);
+  run_by_blocks(compact, blocks);
   return first.back();
 }
 

@@ -68,7 +68,7 @@ class Projector {
                                          const std::vector<shared::BlockCounts>& found) const;
   Buffer<std::uint16_t> key_ends(std::uint32_t slots, Filling filling = Filling::whole) const;
   std::uint32_t stride_of(const shared::ProjectParameters<float>& parameters) const;
-  SplatMemory splat_memory(std::uint64_t splats, Filling filling = Filling::whole) const;
+  Buffer<std::byte> splat_memory(std::uint64_t splats, Filling filling = Filling::whole) const;
   void run_by_blocks(Launch& launch, std::size_t blocks) const;
   // Of any order and lists: the same in every frame of the plan.
   Buffer<shared::WidthNeeds> upload_needs() const;

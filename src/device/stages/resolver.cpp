@@ -355,15 +355,10 @@ Buffer<float> Resolver::find_deepest(const Planes& planes) const {
   const std::size_t eights = ceil_divide(static_cast<std::size_t>(parameters_.width), 8);
   const auto rows = static_cast<std::size_t>(BlockErrors::blocks_along(parameters_.height));
   auto deepest = context_.device.pool.get<float>(eights * rows, "depths of blocks");
-  // Extended numbers are pairs (resolve.cl).
-  const cl_uint step = context_.plan.is_extended() ? 2 : 1;
-  const cl_uint first = context_.plan.needs_sort() ? 3 * step : 0;
   Launch(context_.device, "resolve", deepest_program_.create_kernel("find_deepest"))
       .value(parameters_)
       .arg(context_.grids)
       .arg(planes.light)
-      .value(first)
-      .value(step)
       .arg(deepest)
       .run_grid(eights, rows, 1);
   return deepest;
@@ -381,7 +376,7 @@ std::vector<float> Resolver::depths_of_blocks(const Buffer<float>& deepest) cons
     block = std::min(block, of_eights[i]);
   }
   for (float& block : blocks)
-    block = has_opacities() ? depth_behind(block, context_.plan.layers) : 1 - block;
+    block = context_.plan.needs_sort() ? depth_behind(block, context_.plan.layers) : 1 - block;
   return blocks;
 }
 

@@ -52,8 +52,6 @@ class Resolver {
   void blur_by_axes(const Planes& planes, std::size_t blur, int level, const LevelLight& target,
                     bool add, const Buffer<float>& columns) const;
   std::size_t items_of(std::size_t eights) const;
-  // Planes of others hold depths.
-  bool has_opacities() const { return context_.plan.needs_sort() && !context_.plan.is_extended(); }
   void refine_columns(const LevelLight& coarse, const shared::RefineParameters& parameters,
                       const Buffer<float>& columns) const;
   shared::RefineParameters refine_parameters(std::uint32_t coarse, std::uint32_t fine,

@@ -60,7 +60,12 @@ ProgramSource composite_with_clouds_program(const Variant& variant) {
 
 ProgramSource join_program(const Variant& variant) {
   return program_of_layers(
-      variant, variant.rows ? "kernels/composite/join.cl" : "kernels/composite/join_groups.cl");
+      variant, variant.rows ? "kernels/composite/join.cl" : "kernels/composite/join_groups.cl",
+      {double_values(variant)});
+}
+
+ProgramSource add_light_program(const Variant& variant) {
+  return program_source(variant, "kernels/composite/add_light.cl", {double_values(variant)});
 }
 
 ProgramSource certify_program(const Variant& variant) {
@@ -95,8 +100,7 @@ ProgramSource list_around_program(const Variant& variant) {
 }
 
 ProgramSource behind_program(const Variant& variant) {
-  return program_source(variant, variant.extended ? "kernels/composite/behind_extended.cl"
-                                                  : "kernels/composite/behind.cl");
+  return program_source(variant, "kernels/composite/behind.cl", {double_values(variant)});
 }
 
 }  // namespace splotchcl

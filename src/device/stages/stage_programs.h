@@ -18,6 +18,8 @@ ProgramSource composite_program(const Variant& variant);
 // The same of lists in which there are clouds around the camera.
 ProgramSource composite_with_clouds_program(const Variant& variant);
 ProgramSource join_program(const Variant& variant);
+// Light of one part of a sum added to that of another.
+ProgramSource add_light_program(const Variant& variant);
 ProgramSource certify_program(const Variant& variant);
 ProgramSource refine_program(const Variant& variant);
 ProgramSource blur_program(const Variant& variant);

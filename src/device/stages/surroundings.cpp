@@ -28,29 +28,21 @@ namespace splotchcl {
 namespace {
 
 // An optical depth as planes carry it (opacity.cl).
-float carried(double depth, bool keeps_transmittance) {
+double carried(double depth, bool keeps_transmittance) {
+  constexpr double least = std::numeric_limits<float>::min();
   const double opacity = -std::expm1(-depth);
-  if (!keeps_transmittance || opacity < 0.5) return static_cast<float>(opacity);
-  return -std::max(static_cast<float>(std::exp(-depth)), std::numeric_limits<float>::min());
+  if (!keeps_transmittance || opacity < 0.5) return opacity;
+  return -std::max(std::exp(-depth), least);
 }
 
-// A row of light. Interpolation may leave less than nothing, by as little as it errs.
-void put_light(const double* light, std::size_t count, float* to) {
-  for (std::size_t i = 0; i < count; ++i)
-    to[i] = static_cast<float>(std::max(light[i], 0.0));
-}
-
-// A row of optical depths as planes carry them. Most layers are thin, and take no function then: by
-// five terms of the series, whose error is depth^5 / 720 of it, less than single precision rounds
-// off.
-void put_depths(const double* depths, std::size_t count, bool keeps_transmittance, float* to) {
+// A row of optical depths. Most layers are thin, and take no function then: by five terms of the
+// series, whose error is depth^5 / 720 of it, less than single precision rounds off.
+void carry_depths(double* depths, std::size_t count, bool keeps_transmittance) {
   constexpr double thin = 0.03;
   const bool are_thin = *std::max_element(depths, depths + count) < thin;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double d = std::max(depths[i], 0.0);
-    to[i] = are_thin ? static_cast<float>(
-                           d * (1 - d * (1. / 2 - d * (1. / 6 - d * (1. / 24 - d * (1. / 120))))))
-                     : carried(d, keeps_transmittance);
+  for (double* d = depths; d < depths + count; ++d) {
+    *d = are_thin ? *d * (1 - *d * (1. / 2 - *d * (1. / 6 - *d * (1. / 24 - *d * (1. / 120)))))
+                  : carried(*d, keeps_transmittance);
   }
 }
 
@@ -73,19 +65,17 @@ Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& lay
     std::vector<double> row;
     for (std::size_t y = first; y < end; ++y) {
       layer.row(static_cast<int>(y), row);
+      // Interpolation may leave less than nothing, by as little as it errs.
+      for (double& number : row)
+        number = std::max(number, 0.0);
       for (std::size_t c = 0; c < channels; ++c) {
-        const double* const values = row.data() + c * width;
+        double* const numbers = row.data() + c * width;
         float* const to = floats.data() + planes * c * pixels + y * width;
-        for (std::size_t x = 0; planes == 2 && x < width; ++x) {
-          const shared::FloatPair pair = pair_of(values[x]);
-          to[x] = pair.high;
-          to[x + pixels] = pair.low;
+        if (c >= 3) carry_depths(numbers, width, context.plan.layers.keeps_transmittance);
+        for (std::size_t x = 0; x < width; ++x) {
+          to[x] = static_cast<float>(numbers[x]);
+          if (planes == 2) to[x + pixels] = pair_of(numbers[x]).low;
         }
-        if (planes == 2) continue;
-        if (c >= 3)
-          put_depths(values, width, context.plan.layers.keeps_transmittance, to);
-        else
-          put_light(values, width, to);
       }
     }
   });

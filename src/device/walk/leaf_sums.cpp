@@ -4,20 +4,19 @@
 
 #include "device/opencl/launch.h"
 #include "device/ranks/rank_share.h"
+#include "device/stages/stage_programs.h"
 
 namespace splotchcl {
 namespace {
 
-void add(const StageContext& context, const char* kernel,
-         const shared::AddLightParameters& parameters, std::size_t planes, const Buffer<float>& to,
-         const Buffer<float>& from) {
+void add(const StageContext& context, const shared::AddLightParameters& parameters,
+         std::size_t numbers, const Buffer<float>& to, const Buffer<float>& from) {
   Launch(context.device, "composite",
-         context.device.programs.get(program_source("kernels/composite/add_light.cl"))
-             .create_kernel(kernel))
+         context.device.programs.get(add_light_program(context.variant)).create_kernel("add_light"))
       .value(parameters)
       .arg(to)
       .arg(from)
-      .run_grid((parameters.plane_floats + 7) / 8, planes, 1);
+      .run_grid((parameters.plane_floats + 7) / 8, numbers, 1);
 }
 
 void add_planes(const StageContext& context, const Planes& to, const Planes& from, std::size_t g) {
@@ -25,10 +24,8 @@ void add_planes(const StageContext& context, const Planes& to, const Planes& fro
   const std::size_t planes = context.variant.planes();
   const shared::AddLightParameters parameters = {grid.first_float_low, grid.first_float_high,
                                                  grid.plane_size};
-  const bool is_pairs = context.variant.extended;
   if ((to.used_grids >> g & 1) != 0) {
-    add(context, is_pairs ? "add_pairs_of_light" : "add_light", parameters,
-        is_pairs ? planes / 2 : planes, to.light, from.light);
+    add(context, parameters, context.variant.extended ? planes / 2 : planes, to.light, from.light);
     return;
   }
   const std::size_t first = floats_before(grid) * sizeof(float);
@@ -48,7 +45,7 @@ SplatLight add(const StageContext& context, SplatLight to, SplatLight from) {
     to.cells = std::move(from.cells);
   } else if (from.cells.size() > 0) {
     const shared::AddLightParameters cells = {0, 0, static_cast<std::uint32_t>(to.cells.size())};
-    add(context, "add_light", cells, 1, to.cells, from.cells);
+    add(context, cells, 1, to.cells, from.cells);
   }
   return to;
 }

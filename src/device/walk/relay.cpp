@@ -14,24 +14,17 @@ void carry_splats(const StageContext& context, const SortedSplats& sorted, std::
                   const KeyedSplats& keyed) {
   DeviceContext& device = context.device;
   const Program program = device.programs.get(program_source("kernels/sort/carry.cl"));
-  const auto copy = [&](const Buffer<std::byte>& from, const Buffer<std::byte>& to,
-                        std::size_t splat_bytes) {
-    Launch(device, "sort", program.create_kernel("carry_splats"))
-        .value(static_cast<cl_uint>(first))
-        .value(static_cast<cl_uint>(splat_bytes / sizeof(cl_uint)))
-        .value(static_cast<cl_uint>(keyed.key_ends.size() > 0))
-        .arg(sorted.order)
-        .arg(from)
-        .arg(to)
-        .arg(keyed.keys)
-        .arg(keyed.key_ends)
-        .arg(keyed.order)
-        .run_items(sorted.count - first);
-  };
-  const Variant& variant = context.variant;
-  copy(sorted.splats.splats, keyed.splats.splats, variant.splat_bytes());
-  if (variant.extended)
-    copy(sorted.splats.extended, keyed.splats.extended, variant.extended_splat_bytes());
+  Launch(device, "sort", program.create_kernel("carry_splats"))
+      .value(static_cast<cl_uint>(first))
+      .value(static_cast<cl_uint>(context.variant.splat_bytes() / sizeof(cl_uint)))
+      .value(static_cast<cl_uint>(keyed.key_ends.size() > 0))
+      .arg(sorted.order)
+      .arg(sorted.splats)
+      .arg(keyed.splats)
+      .arg(keyed.keys)
+      .arg(keyed.key_ends)
+      .arg(keyed.order)
+      .run_items(sorted.count - first);
 }
 
 }  // namespace
@@ -55,23 +48,17 @@ std::vector<std::uint64_t> sort_keys_up_to(const StageContext& context, const Ke
 
 void Relay::pass_splats(const SortedSplats& sorted, std::uint32_t count) {
   splats_.clear();
-  extended_.clear();
   if (count > 0) {
     const KeyedSplats last = projector_.keyed_memory(count);
     carry_splats(context_, sorted, sorted.count - count, last);
-    const Variant& variant = context_.variant;
-    BufferPool& pool = context_.device.pool;
-    splats_ = pool.download(last.splats.splats, count * variant.splat_bytes());
-    extended_ = pool.download(last.splats.extended, count * variant.extended_splat_bytes());
+    splats_ = context_.device.pool.download(last.splats, count * context_.variant.splat_bytes());
   }
   if (!is_last_rank()) send_splats(ranks_.rank() + 1);
 }
 
 void Relay::send_splats(int to) const {
-  for (const std::vector<std::byte>* bytes : {&splats_, &extended_}) {
-    if (!bytes->empty()) ranks_.all.send(bytes->data(), bytes->size(), to);
-    ranks_.work.sent_bytes += bytes->size();
-  }
+  if (!splats_.empty()) ranks_.all.send(splats_.data(), splats_.size(), to);
+  ranks_.work.sent_bytes += splats_.size();
 }
 
 void Relay::pass_round(const SplatLight& light) {
@@ -80,19 +67,13 @@ void Relay::pass_round(const SplatLight& light) {
   transfer_.send(light, 0);
 }
 
-void Relay::take_splats(std::size_t round, const SplatMemory& splats, std::uint32_t count) {
+void Relay::take_splats(std::size_t round, const Buffer<std::byte>& splats, std::uint32_t count) {
   if (count == 0) return;
-  const Variant& variant = context_.variant;
-  const auto take = [&](std::vector<std::byte>& bytes, const Buffer<std::byte>& to,
-                        std::size_t splat_bytes) {
-    if (has_other_before(round)) {
-      bytes.resize(count * splat_bytes);
-      if (!bytes.empty()) ranks_.all.receive(bytes.data(), bytes.size(), rank_before());
-    }
-    context_.device.pool.write(to, 0, bytes.data(), bytes.size());
-  };
-  take(splats_, splats.splats, variant.splat_bytes());
-  take(extended_, splats.extended, variant.extended_splat_bytes());
+  if (has_other_before(round)) {
+    splats_.resize(count * context_.variant.splat_bytes());
+    ranks_.all.receive(splats_.data(), splats_.size(), rank_before());
+  }
+  context_.device.pool.write(splats, 0, splats_.data(), splats_.size());
 }
 
 SplatLight Relay::bring_home(SplatLight light) const {

@@ -42,7 +42,7 @@ class Relay {
   // round are where they belong, so it waits with that.
   void pass_round(const SplatLight& light);
   // What the slice before has passed, into the first `count` slots.
-  void take_splats(std::size_t round, const SplatMemory& splats, std::uint32_t count);
+  void take_splats(std::size_t round, const Buffer<std::byte>& splats, std::uint32_t count);
 
   // What compositing goes on with, to the next rank of this round and from the one before.
   void send_on(const SplatLight& light) const {
@@ -62,7 +62,7 @@ class Relay {
   const Projector& projector_;
   const LightTransfer& transfer_;
   FrameRanks& ranks_;
-  std::vector<std::byte> splats_, extended_;  // that are passed on
+  std::vector<std::byte> splats_;  // that are passed on
 };
 
 // The rows of tiles of a picture of one grid in which ranks pass it on: while one composites a

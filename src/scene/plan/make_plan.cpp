@@ -158,6 +158,8 @@ void set_limits(const Frame& frame, FramePlan& plan) {
   plan.shape_error = error_of_shapes(plan.precision);
   plan.layers = choose_layer_limits(plan.shares, plan.light, std::max(background, source),
                                     of_layers, longest_block(plan));
+  // Pairs of floats hold as little as shows through, too.
+  if (plan.is_extended()) plan.layers.keeps_transmittance = plan.needs_sort();
 }
 
 // Bounds are several times larger than estimates.
