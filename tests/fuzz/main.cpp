@@ -41,10 +41,20 @@ Target chosen_target() {
   std::exit(2);
 }
 
+Target target() {
+  static const Target chosen = chosen_target();
+  return chosen;
+}
+
 }  // namespace
 
+// Before anything is tried: a program that ends while it is would be a finding.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  target();
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Target target = chosen_target();
-  target(data, size);
+  target()(data, size);
   return 0;
 }
