@@ -181,11 +181,10 @@ class Caller {
 
 }  // namespace
 
-int splotchcl::fuzz::fuzz_c_interface(const std::uint8_t* data, std::size_t size) {
+void splotchcl::fuzz::fuzz_c_interface(const std::uint8_t* data, std::size_t size) {
   constexpr int most_calls = 64;
   Choices choices(data, size);
   Caller caller;
   for (int i = 0; i < most_calls && !choices.is_empty(); ++i)
     caller.call(choices);
-  return 0;
 }

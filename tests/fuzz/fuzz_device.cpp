@@ -32,10 +32,10 @@ splotchcl::FrameDrawer& drawer() {
 }  // namespace
 
 // The first byte chooses the scene, what follows is floats: five for each particle.
-int splotchcl::fuzz::fuzz_device(const std::uint8_t* data, std::size_t size) {
+void splotchcl::fuzz::fuzz_device(const std::uint8_t* data, std::size_t size) {
   using namespace splotchcl;
   constexpr std::size_t floats_per_particle = 5, most_particles = 64;
-  if (size < 1 + floats_per_particle * sizeof(float)) return 0;
+  if (size < 1 + floats_per_particle * sizeof(float)) return;
   const std::size_t count =
       std::min(most_particles, (size - 1) / (floats_per_particle * sizeof(float)));
   std::vector<float> values(floats_per_particle * count);
@@ -57,5 +57,4 @@ int splotchcl::fuzz::fuzz_device(const std::uint8_t* data, std::size_t size) {
   } catch (const Error&) {
     // refused
   }
-  return 0;
 }

@@ -38,7 +38,7 @@ FormulaSources sources() {
 
 }  // namespace
 
-int splotchcl::fuzz::fuzz_formula(const std::uint8_t* data, std::size_t size) {
+void splotchcl::fuzz::fuzz_formula(const std::uint8_t* data, std::size_t size) {
   try {
     const Formula formula = with_converted_numbers(
         Formula::parse(std::string(reinterpret_cast<const char*>(data), size), "fuzz"),
@@ -53,5 +53,4 @@ int splotchcl::fuzz::fuzz_formula(const std::uint8_t* data, std::size_t size) {
   } catch (const splotchcl::Error&) {
     // refused
   }
-  return 0;
 }

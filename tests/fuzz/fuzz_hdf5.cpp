@@ -186,7 +186,7 @@ void read_haloes() {
 
 }  // namespace
 
-int splotchcl::fuzz::fuzz_hdf5(const std::uint8_t* data, std::size_t size) {
+void splotchcl::fuzz::fuzz_hdf5(const std::uint8_t* data, std::size_t size) {
   const Hdf5Silence silence;
   {
     const Hdf5Output file = create_hdf5(fuzz::scratch_file());
@@ -217,5 +217,4 @@ int splotchcl::fuzz::fuzz_hdf5(const std::uint8_t* data, std::size_t size) {
   }
   fuzz::read_as(hdf5_formats());
   read_haloes();
-  return 0;
 }

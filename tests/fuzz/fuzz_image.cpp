@@ -2,11 +2,11 @@
 #include "fuzz/fuzz.h"
 #include "splotchcl/image_file.h"
 
-int splotchcl::fuzz::fuzz_image(const std::uint8_t* data, std::size_t size) {
+void splotchcl::fuzz::fuzz_image(const std::uint8_t* data, std::size_t size) {
   using namespace splotchcl;
   constexpr const char* endings[] = {".png", ".exr", ".tif", ".hdr",
                                      ".jpg", ".bmp", ".ppm", ".tga"};
-  if (size == 0) return 0;
+  if (size == 0) return;
   std::filesystem::path path = fuzz::scratch_file();
   path += endings[data[0] % std::size(endings)];
   {
@@ -17,7 +17,7 @@ int splotchcl::fuzz::fuzz_image(const std::uint8_t* data, std::size_t size) {
     // A header may claim any size: only what would be read in a moment is.
     const ImageFileInfo info = read_image_info(path);
     constexpr std::int64_t most_pixels = 1 << 18;
-    if (std::int64_t{info.width} * info.height > most_pixels) return 0;
+    if (std::int64_t{info.width} * info.height > most_pixels) return;
     const Image image = read_image(path);
     if (image.width != info.width || image.height != info.height) std::abort();
     LinearImageOptions options;
@@ -27,5 +27,4 @@ int splotchcl::fuzz::fuzz_image(const std::uint8_t* data, std::size_t size) {
   } catch (const Error&) {
     // refused
   }
-  return 0;
 }

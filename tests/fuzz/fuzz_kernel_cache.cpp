@@ -3,7 +3,7 @@
 #include "device/opencl/binary_cache.h"
 #include "fuzz/fuzz.h"
 
-int splotchcl::fuzz::fuzz_kernel_cache(const std::uint8_t* data, std::size_t size) {
+void splotchcl::fuzz::fuzz_kernel_cache(const std::uint8_t* data, std::size_t size) {
   using splotchcl::BinaryCache;
   const std::filesystem::path folder =
       splotchcl::fuzz::scratch_file().parent_path() / "kernel_cache";
@@ -30,5 +30,4 @@ int splotchcl::fuzz::fuzz_kernel_cache(const std::uint8_t* data, std::size_t siz
   std::ofstream(file, std::ios::binary | std::ios::trunc) << content;
   const auto found = cache.find(key);
   if (found && (content != whole || *found != binary)) std::abort();
-  return 0;
 }

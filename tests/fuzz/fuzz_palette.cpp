@@ -2,7 +2,7 @@
 #include "palette/palette_file.h"
 
 // Some forms are told apart by their endings.
-int splotchcl::fuzz::fuzz_palette(const std::uint8_t* data, std::size_t size) {
+void splotchcl::fuzz::fuzz_palette(const std::uint8_t* data, std::size_t size) {
   const std::string content(reinterpret_cast<const char*>(data), size);
   for (const char* const name : {"fuzz.txt", "fuzz.cpt", "fuzz.act", "fuzz.lut"}) {
     try {
@@ -11,5 +11,4 @@ int splotchcl::fuzz::fuzz_palette(const std::uint8_t* data, std::size_t size) {
       // refused
     }
   }
-  return 0;
 }

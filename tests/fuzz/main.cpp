@@ -9,7 +9,7 @@
 
 namespace {
 
-using Target = int (*)(const std::uint8_t*, std::size_t);
+using Target = void (*)(const std::uint8_t*, std::size_t);
 
 Target chosen_target() {
   using namespace splotchcl::fuzz;
@@ -41,9 +41,20 @@ Target chosen_target() {
   std::exit(2);
 }
 
+Target target() {
+  static const Target chosen = chosen_target();
+  return chosen;
+}
+
 }  // namespace
 
+// Before anything is tried: a program that ends while it is would be a finding.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  target();
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Target target = chosen_target();
-  return target(data, size);
+  target()(data, size);
+  return 0;
 }

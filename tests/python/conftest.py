@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,14 @@ def program():
         assert done.returncode == 0, done.stderr
 
     return run
+
+
+def run_python(*words, environment=None, folder=None, timeout=600) -> subprocess.CompletedProcess:
+    """Runs a Python of its own, with these words behind its name; it may fail."""
+    return subprocess.run(
+        [sys.executable, *map(str, words)], env={**os.environ, **(environment or {})}, cwd=folder,
+        capture_output=True, text=True, timeout=timeout, check=False,
+    )  # fmt: skip
 
 
 @pytest.fixture(scope="session")

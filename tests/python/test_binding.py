@@ -1,12 +1,12 @@
 """The module between Python and C++: one file for every Python, and nothing lost or kept on the way."""
 
 import gc
-import subprocess
 import sys
 
 import numpy as np
 import pytest
 import splotchcl
+from conftest import run_python
 from splotchcl import _core
 
 
@@ -121,5 +121,5 @@ def test_calls_keep_nothing():
 
 def test_python_ends_well_with_objects_alive():
     code = "from splotchcl import _core; a = _core.ParticleArrays(); b = _core.parse_scene('', [])"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    done = run_python("-c", code)
     assert (done.returncode, done.stderr) == (0, "")

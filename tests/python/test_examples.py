@@ -1,27 +1,19 @@
 """Every script in examples/python runs and draws."""
 
 import json
-import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from conftest import run_python
 from splotchcl import Image
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "python"
 
 
 def run(name, *arguments):
-    done = subprocess.run(
-        [sys.executable, EXAMPLES / name, *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        timeout=600,
-        check=False,
-    )
+    done = run_python(EXAMPLES / name, *arguments)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -92,14 +84,7 @@ def test_the_notebook(renderer, universe, tmp_path):
     cells = json.loads((EXAMPLES / "first_look.ipynb").read_text())["cells"]
     script = tmp_path / "notebook.py"
     script.write_text("\n\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code"))
-    done = subprocess.run(
-        [sys.executable, script],
-        env={**os.environ, "SNAPSHOT": str(universe)},
-        capture_output=True,
-        text=True,
-        timeout=600,
-        check=False,
-    )
+    done = run_python(script, environment={"SNAPSHOT": str(universe)})
     assert done.returncode == 0, done.stderr
     assert "the brightest pixel" in done.stdout
 

@@ -1,12 +1,11 @@
 """Arrays of a hundred million particles are drawn where they lie."""
 
 import os
-import subprocess
-import sys
 
 import pytest
 
 import splotchcl
+from conftest import run_python
 
 DRAW = """
 import resource
@@ -43,12 +42,6 @@ def test_a_hundred_million_particles_are_drawn_without_a_second_copy(renderer):
     """The smallest array has 4 bytes a particle."""
     if any(device["is_gpu"] for device in splotchcl.devices() if device["is_default"]):
         pytest.skip("a GPU's driver keeps copies of its own")
-    done = subprocess.run(
-        [sys.executable, "-c", DRAW.replace("COUNT", "100_000_000")],
-        capture_output=True,
-        text=True,
-        timeout=3000,
-        check=False,
-    )
+    done = run_python("-c", DRAW.replace("COUNT", "100_000_000"), timeout=3000)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) < 2

@@ -2,7 +2,6 @@
 
 import base64
 import os
-import subprocess
 import sys
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import numpy as np
 import pytest
 
 import splotchcl
+from conftest import run_python
 from splotchcl import Image, Scene, Snapshot, UsageError
 
 SIZE = (96, 64)
@@ -200,14 +200,7 @@ try:
 except splotchcl.DataError as error:
     sys.exit(str(error))
 """
-    ended = subprocess.run(
-        [sys.executable, "-c", script, str(path)],
-        env={**os.environ, **(environment or {})},
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    ended = run_python("-c", script, path, environment=environment, timeout=120)
     assert ended.returncode == 1, ended.stderr
     return ended.stderr
 
@@ -243,12 +236,7 @@ def test_who_reads_a_picture_first_runs_no_code_of_the_current_folder(tmp_path):
     )
     (tmp_path / "a.png").write_bytes(base64.b64decode(DAMAGED_PROFILE))
     folders = os.pathsep.join(os.path.abspath(folder) for folder in sys.path if folder)
-    ended = subprocess.run(
-        [sys.executable, str(script), "a.png"],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": folders},
-        timeout=120,
-        check=False,
-    )
+    ended = run_python(script, "a.png", environment={"PYTHONPATH": folders}, folder=tmp_path,
+                       timeout=120)
     assert ended.returncode == 3
     assert not (tmp_path / "code_ran").exists()

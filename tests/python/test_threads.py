@@ -1,10 +1,6 @@
 """Python's lock is free while something is drawn; threads, forks and interruptions end well."""
 
 import multiprocessing
-import os
-import signal
-import subprocess
-import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -13,7 +9,7 @@ import numpy as np
 import pytest
 
 import splotchcl
-from conftest import make_arrays
+from conftest import make_arrays, run_python
 from splotchcl import DeviceError, Particles, UsageError
 
 SIZE = (64, 64)
@@ -138,13 +134,7 @@ def run_interrupted(drawing, count, size):
     script = INTERRUPTED
     for word, text in (("DRAW", drawing), ("COUNT", str(count)), ("SIZE", str(size))):
         script = script.replace(word, text)
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        capture_output=True,
-        text=True,
-        timeout=500,
-        check=False,
-    )
+    done = run_python("-c", script, timeout=500)
     assert done.stdout == "interrupted\n", done.stderr
 
 
@@ -160,12 +150,18 @@ def test_an_interruption_ends_a_picture_of_a_device(renderer):
     run_interrupted(call, 1500000, 0.01)
 
 
-def test_a_device_tells_how_far_it_is(renderer):
-    told = []
+def gas_and_stars():
+    """A scene whose components are drawn one after the other, and its particles."""
     particles = Particles().gas(**make_arrays(200)).stars(**make_arrays(200))
     scene = splotchcl.suggest(particles, size=SIZE)
     for component in scene["component"]:
         scene[f"component.{component['name']}.absorption"] = "none"
+    return scene, particles
+
+
+def test_a_device_tells_how_far_it_is(renderer):
+    told = []
+    scene, particles = gas_and_stars()
     renderer.render(scene, particles, progress=lambda what, part: told.append((what, part)))
     assert ("drawing", 0.5) in told
 
@@ -175,10 +171,7 @@ def test_a_renderer_draws_again_after_a_device_was_stopped(renderer):
         if what == "drawing" and fraction > 0:
             raise LookupError("enough")
 
-    particles = Particles().gas(**make_arrays(200)).stars(**make_arrays(200))
-    scene = splotchcl.suggest(particles, size=SIZE)
-    for component in scene["component"]:
-        scene[f"component.{component['name']}.absorption"] = "none"
+    scene, particles = gas_and_stars()
     expected = renderer.render(scene, particles).linear
     with pytest.raises(LookupError):
         renderer.render(scene, particles, progress=stop)
@@ -201,11 +194,6 @@ def test_a_forked_child_is_refused(renderer):
     answer = queue.get(timeout=60)
     child.join(60)
     assert "spawn" in answer
-
-
-def run_alone(script):
-    """The exit code of a Python of its own, in a minute at most."""
-    return subprocess.run([sys.executable, "-c", script], timeout=120, check=False).returncode
 
 
 DRAWN = """
@@ -234,7 +222,7 @@ for _ in range(600):
 os.kill(child, 9)
 os._exit(1)
 """
-    assert run_alone(script) == 3
+    assert run_python("-c", script, timeout=120).returncode == 3
 
 
 def test_python_that_ends_while_a_thread_draws_has_its_own_exit_code():
@@ -247,7 +235,8 @@ for _ in range(3):
 time.sleep(0.5)
 sys.exit(7)
 """
-    assert [run_alone(script) for _ in range(3)] == [7, 7, 7]
+    for _ in range(3):
+        assert run_python("-c", script, timeout=120).returncode == 7
 
 
 def test_a_file_that_is_cut_while_it_is_mapped_is_an_error(tmp_path):
@@ -265,10 +254,7 @@ except splotchcl.DataError as error:
     sys.exit(4 if "became shorter" in str(error) else 5)
 sys.exit(6)
 """
-    code = subprocess.run(
-        [sys.executable, "-c", script, str(tmp_path / "a.npy")], timeout=120, check=False
-    ).returncode
-    assert code == 4
+    assert run_python("-c", script, tmp_path / "a.npy", timeout=120).returncode == 4
 
 
 # As a simulation does it with a snapshot of one name, while a picture is drawn of it.
@@ -300,7 +286,4 @@ ends.set()
 writer.join()
 sys.exit(7)
 """
-    code = subprocess.run(
-        [sys.executable, "-c", script, str(tmp_path / "a.npy")], timeout=240, check=False
-    ).returncode
-    assert code == 7
+    assert run_python("-c", script, tmp_path / "a.npy", timeout=240).returncode == 7

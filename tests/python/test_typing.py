@@ -1,13 +1,12 @@
 """The module is typed: mypy finds nothing, and every public name says what it does."""
 
 import inspect
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 import splotchcl
+from conftest import run_python
 from splotchcl._shown import Shown
 
 SOURCES = Path(__file__).parents[2] / "src" / "python" / "splotchcl"
@@ -25,10 +24,8 @@ sigma = splotchcl.column(particles).values.max()
 
 def run_mypy(*arguments):
     pytest.importorskip("mypy")
-    words = [sys.executable, "-m", "mypy", "--strict", "--cache-dir=/dev/null", *arguments]
-    done = subprocess.run(
-        words, cwd=SOURCES.parent, capture_output=True, text=True, timeout=600, check=False
-    )
+    words = ["-m", "mypy", "--strict", "--cache-dir=/dev/null", *arguments]
+    done = run_python(*words, folder=SOURCES.parent)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
