@@ -7,7 +7,7 @@
 #include "device/stages/stage_programs.h"
 
 namespace splotchcl {
-void LightAdder::add(const shared::AddLightParameters& parameters, std::size_t numbers,
+void LightAdder::add(const shared::MemoryRange& parameters, std::size_t numbers,
                      const Buffer<float>& to, const Buffer<float>& from) const {
   Launch(
       context_.device, "composite",
@@ -15,14 +15,14 @@ void LightAdder::add(const shared::AddLightParameters& parameters, std::size_t n
       .value(parameters)
       .arg(to)
       .arg(from)
-      .run_grid((parameters.plane_floats + 7) / 8, numbers, 1);
+      .run_grid((parameters.words + 7) / 8, numbers, 1);
 }
 
 void LightAdder::add_planes(const Planes& to, const Planes& from, std::size_t g) const {
   const shared::Grid& grid = context_.layout.grids[g];
   const std::size_t planes = context_.variant.planes();
-  const shared::AddLightParameters parameters = {grid.first_float_low, grid.first_float_high,
-                                                 grid.plane_size};
+  const shared::MemoryRange parameters = {grid.first_float_low, grid.first_float_high,
+                                          grid.plane_size};
   if ((to.used_grids >> g & 1) != 0) {
     add(parameters, context_.variant.extended ? planes / 2 : planes, to.light, from.light);
     return;
@@ -43,7 +43,7 @@ SplatLight LightAdder::add(SplatLight to, SplatLight from) const {
   if (to.cells.size() == 0) {
     to.cells = std::move(from.cells);
   } else if (from.cells.size() > 0) {
-    const shared::AddLightParameters cells = {0, 0, static_cast<std::uint32_t>(to.cells.size())};
+    const shared::MemoryRange cells = {0, 0, static_cast<std::uint32_t>(to.cells.size())};
     add(cells, 1, to.cells, from.cells);
   }
   return to;

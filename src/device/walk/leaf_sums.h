@@ -21,8 +21,8 @@ class LightAdder {
 
  private:
   void add_planes(const Planes& to, const Planes& from, std::size_t grid) const;
-  void add(const shared::AddLightParameters& parameters, std::size_t numbers,
-           const Buffer<float>& to, const Buffer<float>& from) const;
+  void add(const shared::MemoryRange& parameters, std::size_t numbers, const Buffer<float>& to,
+           const Buffer<float>& from) const;
 
   const StageContext& context_;
 };
