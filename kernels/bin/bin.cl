@@ -6,8 +6,6 @@
 #include "kernels/bin/tiles.cl"
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.h"
-#include "kernels/common/pieces.cl"
-#include "kernels/common/prefetch.cl"
 #include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
 #include "kernels/project/project.h"

@@ -6,7 +6,6 @@
 #include "kernels/bin/tiles.cl"
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.h"
-#include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
 #include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"

@@ -4,8 +4,6 @@
 #include "kernels/bin/bin.h"
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/prefetch.cl"
-#include "kernels/common/words.cl"
 
 #ifdef LANES_8
 #define OF_ENTRIES(entries, field)                                                         \

@@ -7,8 +7,6 @@
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/pieces.cl"
-#include "kernels/common/prefetch.cl"
 
 // What work-items know of their tile.
 typedef struct TileOfCells {
@@ -24,39 +22,22 @@ INLINED void add(const Contribution added, __global float* cells) {
   cells[added.ending_cell] += added.ending;
 }
 
-// LANES splats as they were measured.
-typedef struct Batch {
-  __global const TileSplat* entries;
-  int counts[LANES];  // whether they do: in this tile
-  int pixel[LANES], octave[LANES];
-  float peak[LANES], width2[LANES], ending[LANES];
-} Batch;
-
-INLINED Measured one_of(const Batch* batch, int i) {
-  Measured m;
-  m.pixel = batch->pixel[i];
-  m.octave = batch->octave[i];
-  m.peak = batch->peak[i];
-  m.width2 = batch->width2[i];
-  m.ending = batch->ending[i];
-  return m;
-}
-
 // A call: of most batches no splat is bright or only listed.
-__attribute__((noinline)) static void add_one_by_one(const Batch* batch, int count,
+__attribute__((noinline)) static void add_one_by_one(__global const TileSplat* entries,
+                                                     const MeasuredLanes* batch, int count,
                                                      const TileOfCells* tile,
                                                      const CertifyParameters* p) {
   const GridOfCells of_grid = tile->of_grid;
   for (int i = 0; i < count; ++i) {
-    __global const TileSplat* splat = batch->entries + i;
+    __global const TileSplat* splat = entries + i;
     const Measured m = one_of(batch, i);
     if (splat->radius < 0.0f) {
       add(contribution_of_listed(splat, m, p, of_grid.level, tile->grid, tile->column, tile->row),
           tile->cells);
-    } else if (batch->counts[i] && m.peak > p->edge_peak) {
+    } else if (integer_of(batch->counts_here, i) && m.peak > p->edge_peak) {
       add(contribution_of_bright(m, splat->radius, of_grid.most_peak, p, of_grid.level),
           tile->cells);
-    } else if (batch->counts[i]) {
+    } else if (integer_of(batch->counts_here, i)) {
       add(contribution_of_drawn(m, of_grid.most_peak, p), tile->cells);
     }
   }
@@ -67,28 +48,20 @@ __attribute__((noinline)) static void add_one_by_one(const Batch* batch, int cou
 
 INLINED void collect_batch(__global const TileSplat* entries, int count, const TileOfCells* tile,
                            const CertifyParameters* p) {
-  Batch batch;
-  batch.entries = entries;
-  const MeasuredLanes m = measured(batch.entries, p, tile->of_grid, tile->reach);
-  const INTEGER is_there = (INTEGER)(0, 1, 2, 3, 4, 5, 6, 7) < count;
-  const INTEGER is_listed = (OF_ENTRIES(batch.entries, radius) < 0.0f) & is_there;
-  const INTEGER counts = m.counts_here & is_there;
-  STORE(m.pixel, batch.pixel);
-  STORE(m.octave, batch.octave);
-  if (ANY(is_listed | (counts & (m.peak > p->edge_peak)))) {
-    STORE(counts, batch.counts);
-    STORE(m.peak, batch.peak);
-    STORE(m.width2, batch.width2);
-    STORE(m.ending, batch.ending);
-    add_one_by_one(&batch, count, tile, p);
+  MeasuredLanes m = measured(entries, p, tile->of_grid, tile->reach);
+  const INTEGER is_there = NUMBERS_OF_LANES < count;
+  const INTEGER is_listed = (OF_ENTRIES(entries, radius) < 0.0f) & is_there;
+  m.counts_here &= is_there;
+  if (ANY(is_listed | (m.counts_here & (m.peak > p->edge_peak)))) {
+    add_one_by_one(entries, &m, count, tile, p);
     return;
   }
   // Those that do not count add nothing, which takes less than to leave them out.
   const VALUE peak = smaller_of(m.peak, (VALUE)(tile->of_grid.most_peak));
-  STORE(choose((VALUE)(0.0f), peak, counts), batch.peak);
-  STORE(choose((VALUE)(0.0f), m.ending, counts), batch.ending);
+  m.peak = choose((VALUE)(0.0f), peak, m.counts_here);
+  m.ending = choose((VALUE)(0.0f), m.ending, m.counts_here);
   for (int i = 0; i < LANES; ++i)
-    add(contribution_of_drawn(one_of(&batch, i), INFINITY, p), tile->cells);
+    add(contribution_of_drawn(one_of(&m, i), INFINITY, p), tile->cells);
 }
 
 // The entries of a tile whose first segment is `id`.

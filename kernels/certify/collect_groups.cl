@@ -8,7 +8,6 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
-#include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
 
 #define NO_CELL 0xffffffffu
@@ -54,7 +53,7 @@ KERNEL_BODY Contribution contribution_of(__global const TileSplat* splat,
   const int column = (int)(in_grid % (uint)grid.tiles_x), row = (int)(in_grid / (uint)grid.tiles_x);
   const GridOfCells of_grid = grid_of_cells(p, g, grid);
   const MeasuredLanes lane = measured(splat, p, of_grid, reach_of(grid, column, row));
-  const Measured m = {lane.pixel, lane.octave, lane.peak, lane.width2, lane.ending};
+  const Measured m = one_of(&lane, 0);
   if (splat->radius < 0.0f)
     return contribution_of_listed(splat, m, p, of_grid.level, grids + g, column, row);
   if (lane.counts_here) {

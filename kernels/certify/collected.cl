@@ -146,6 +146,13 @@ typedef struct Measured {
   float peak, width2, ending;
 } Measured;
 
+INLINED Measured one_of(const MeasuredLanes* lanes, uint k) {
+  const Measured one = {integer_of(lanes->pixel, k), integer_of(lanes->octave, k),
+                        value_of(lanes->peak, k), value_of(lanes->width2, k),
+                        value_of(lanes->ending, k)};
+  return one;
+}
+
 // The square of the width along an axis of which means or center values were drawn.
 INLINED VALUE without_widening(VALUE sigma2, INTEGER by_mean, const CertifyParameters* p) {
   return choose(larger_of(sigma2 - p->widening, (VALUE)(0.0f)), sigma2, by_mean);

@@ -1,7 +1,7 @@
 // Memory set to 0 by all threads of a processor. Work-item: CLEARED_WORDS of it.
-#include "kernels/common/clear.h"
+#include "kernels/common/grid.h"
 
-__kernel void clear(const ClearParameters p, __global float* memory) {
+__kernel void clear(const MemoryRange p, __global float* memory) {
   const size_t first = (size_t)p.first_low | ((size_t)p.first_high << 32);
   const size_t begin = get_global_id(0) * CLEARED_WORDS;
   const size_t end = min(begin + CLEARED_WORDS, (size_t)p.words);

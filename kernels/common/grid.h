@@ -61,3 +61,11 @@ typedef struct Stencil {
   float middle, per_width;
   float coefficients[STENCIL_PLACE_POWERS * STENCIL_WIDTH_POWERS * STENCIL_PIXELS];
 } Stencil;
+
+// Words of four bytes in memory, the first by its number of 64 bits.
+typedef struct MemoryRange {
+  unsigned int first_low, first_high;
+  unsigned int words;
+} MemoryRange;
+// That a work-item clears: enough to be worth a thread's turn.
+#define CLEARED_WORDS 16384

@@ -2,6 +2,8 @@
 // hold as many: LANES_8 and LANES_16 choose; with DOUBLE_VALUES, of extended precision, one in
 // double precision. Stages written in VALUE and INTEGER share every formula between them. A
 // compiler keeps away from registers of sixteen floats but in a function that is called with some.
+#include "kernels/common/common.cl"
+
 #pragma OPENCL FP_CONTRACT ON
 
 #undef VALUE
@@ -101,14 +103,14 @@ static inline VALUE log2_positive(VALUE x) {
 }
 
 // Of one lane.
-static inline float value_of(VALUE values, uint k) {
+INLINED float value_of(VALUE values, uint k) {
 #if DOUBLE_VALUES
   return (float)values;
 #else
   return ((const float*)&values)[k];
 #endif
 }
-static inline int integer_of(INTEGER values, uint k) {
+INLINED int integer_of(INTEGER values, uint k) {
   return ((const int*)&values)[k];
 }
 
@@ -147,3 +149,19 @@ typedef float4 __attribute__((aligned(4))) Four;
 #define load_global_four(p) vload4(0, p)
 #define store_global_eight store_eight
 #endif
+
+// Eights of numbers taken apart and put together in pairs of neighbors: the steps by which columns
+// become rows, or rows columns, in registers. Of two rows of words every other pair, or quad, side
+// by side.
+INLINED float8 first_words(float8 a, float8 b) {
+  return (float8)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5);
+}
+INLINED float8 last_words(float8 a, float8 b) {
+  return (float8)(a.s2, b.s2, a.s3, b.s3, a.s6, b.s6, a.s7, b.s7);
+}
+INLINED float8 first_pairs(float8 a, float8 b) {
+  return (float8)(a.s01, b.s01, a.s45, b.s45);
+}
+INLINED float8 last_pairs(float8 a, float8 b) {
+  return (float8)(a.s23, b.s23, a.s67, b.s67);
+}

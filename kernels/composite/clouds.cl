@@ -7,8 +7,7 @@
 #include "kernels/composite/gaussian.cl"
 #include "kernels/composite/shape.cl"
 
-// Hardly any frame has some.
-// Of all tiles.
+// Of all tiles. Hardly any frame has some.
 typedef struct CloudTables {
   __global const CloudEntry* entries;
   __global const CloudSplat* splats;

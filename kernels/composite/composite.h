@@ -55,9 +55,3 @@ typedef struct BehindParameters {
   int width, height;   // of the crop
   int crop_x, crop_y;  // in the picture
 } BehindParameters;
-
-// Of planes that are added to others (add_light.cl).
-typedef struct AddLightParameters {
-  unsigned int first_low, first_high;  // float of the first plane, 64 bits
-  unsigned int plane_floats;           // of each
-} AddLightParameters;

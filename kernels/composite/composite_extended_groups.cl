@@ -54,12 +54,7 @@ INLINED void add_batch(double* pixels, const __local Batch* batch, uint count,
   }
 }
 
-__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
-    const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-    __global const TileSplat* entries, __global float* planes, __global float* partials,
-    __global const uint* splats, __global const CloudEntry* clouds,
-    __global const CloudSplat* cloud_splats, __global const float* directions,
-    __global const DirectionCone* cones, __global const Stencil* stencils) {
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(COMPOSITE_PARAMETERS) {
   __local Batch batch;
   const uint item = get_local_id(0);
   const Segment segment = segments[p.first_segment + get_group_id(0)];

@@ -8,7 +8,6 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
-#include "kernels/common/pieces.cl"
 #include "kernels/common/splat.h"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/extended_layers.cl"
@@ -60,12 +59,7 @@ KERNEL_BODY void composite_segment(const Segment segment, const CompositeParamet
   }
 }
 
-__kernel void composite(const CompositeParameters p, __global const Grid* grids,
-                        __global const Segment* segments, __global const TileSplat* entries,
-                        __global float* planes, __global float* partials,
-                        __global const uint* splats, __global const CloudEntry* clouds,
-                        __global const CloudSplat* cloud_splats, __global const float* directions,
-                        __global const DirectionCone* cones, __global const Stencil* stencils) {
+__kernel void composite(COMPOSITE_PARAMETERS) {
   const uint piece = piece_of_item(p.end_segment - p.first_segment);
   if (piece == NO_PIECE) return;
   composite_segment(segments[p.first_segment + piece], &p, grids, entries, planes, partials,

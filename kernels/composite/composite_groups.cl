@@ -241,12 +241,7 @@ INLINED int any_shows_behind(const float* block, float stop) {
 // Splats that touch the tile, until it is looked at whether anything behind them shows.
 #define MOST_IN_STRETCH 64u
 
-__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(
-    const CompositeParameters p, __global const Grid* grids, __global const Segment* segments,
-    __global const TileSplat* entries, __global float* planes, __global float* partials,
-    __global const uint* splats, __global const CloudEntry* clouds,
-    __global const CloudSplat* cloud_splats, __global const float* directions,
-    __global const DirectionCone* cones, __global const Stencil* stencils) {
+__kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void composite(COMPOSITE_PARAMETERS) {
   __local Listed listed[2];
   __local Batch batch;
   __local PixelPlaces places;

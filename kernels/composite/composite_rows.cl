@@ -7,11 +7,11 @@
 #include "kernels/common/lanes_of_16.cl"
 #endif
 #include "kernels/bin/bin.h"
-#include "kernels/common/pieces.cl"
 #include "kernels/composite/clouds.cl"
 #include "kernels/composite/composite.h"
 #include "kernels/composite/ordered_list.cl"
 #include "kernels/composite/patch.cl"
+#include "kernels/composite/planes.cl"
 #include "kernels/composite/rows.cl"
 #include "kernels/composite/stencil.cl"
 #include "kernels/composite/summed_list.cl"
@@ -33,12 +33,7 @@ __attribute__((noinline)) static void composite_segment(
             stencils, lanes);
 }
 
-__kernel void composite(const CompositeParameters p, __global const Grid* grids,
-                        __global const Segment* segments, __global const TileSplat* entries,
-                        __global float* planes, __global float* partials,
-                        __global const uint* splats, __global const CloudEntry* clouds,
-                        __global const CloudSplat* cloud_splats, __global const float* directions,
-                        __global const DirectionCone* cones, __global const Stencil* stencils) {
+__kernel void composite(COMPOSITE_PARAMETERS) {
   const uint piece = piece_of_item(p.end_segment - p.first_segment);
   if (piece == NO_PIECE) return;
   const CloudTables tables = {clouds, cloud_splats, directions, cones};

@@ -4,7 +4,6 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
-#include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/composite/composite.h"

@@ -6,6 +6,15 @@
 #include "kernels/common/grid.h"
 #include "kernels/composite/opacity.cl"
 
+// What the kernel `composite` takes, in all shapes. `splats` are those of the lists, as words:
+// single precision has no need of them.
+#define COMPOSITE_PARAMETERS                                                                 \
+  const CompositeParameters p, __global const Grid *grids, __global const Segment *segments, \
+      __global const TileSplat *entries, __global float *planes, __global float *partials,   \
+      __global const uint *splats, __global const CloudEntry *clouds,                        \
+      __global const CloudSplat *cloud_splats, __global const float *directions,             \
+      __global const DirectionCone *cones, __global const Stencil *stencils
+
 // Where a tile's first pixel is, in the first plane.
 INLINED size_t first_of_tile(const Grid grid, uint tile) {
   const uint in_grid = tile - grid.first_tile, tiles_x = (uint)grid.tiles_x;

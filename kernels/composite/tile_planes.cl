@@ -4,7 +4,6 @@
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/prefetch.cl"
 #include "kernels/composite/patch.cl"
 #include "kernels/composite/planes.cl"
 #include "kernels/composite/rows.cl"

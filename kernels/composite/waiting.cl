@@ -6,7 +6,6 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/ellipse.h"
 #include "kernels/composite/patch.cl"
-#include "kernels/composite/patch_reach.cl"
 #include "kernels/composite/patch_shapes.cl"
 #include "kernels/composite/rows.cl"
 
@@ -100,21 +99,15 @@ INLINED PATCH shape_in_row(const PatchSplat splat, int k) {
   }
 #define PATCH_CHANNELS(COVERED) \
   PATCH_CHANNEL(0, 3, COVERED) PATCH_CHANNEL(1, 4, COVERED) PATCH_CHANNEL(2, 5, COVERED)
-INLINED PatchRow add_one_term(PatchRow row, const PatchSplat splat, int k) {
-  const PATCH shape = shape_in_row(splat, k);
-  PATCH_CHANNELS(COVERED_BY_ONE_TERM)
-  return row;
-}
-INLINED PatchRow add_two_terms(PatchRow row, const PatchSplat splat, int k) {
-  const PATCH shape = shape_in_row(splat, k);
-  PATCH_CHANNELS(COVERED_BY_TWO_TERMS)
-  return row;
-}
-INLINED PatchRow add_three_terms(PatchRow row, const PatchSplat splat, int k) {
-  const PATCH shape = shape_in_row(splat, k);
-  PATCH_CHANNELS(COVERED_BY_THREE_TERMS)
-  return row;
-}
+#define ADDITION_OF_LAYER(name, COVERED)                               \
+  INLINED PatchRow name(PatchRow row, const PatchSplat splat, int k) { \
+    const PATCH shape = shape_in_row(splat, k);                        \
+    PATCH_CHANNELS(COVERED)                                            \
+    return row;                                                        \
+  }
+ADDITION_OF_LAYER(add_one_term, COVERED_BY_ONE_TERM)
+ADDITION_OF_LAYER(add_two_terms, COVERED_BY_TWO_TERMS)
+ADDITION_OF_LAYER(add_three_terms, COVERED_BY_THREE_TERMS)
 
 #define ADD_TO_PLANE(c) row.plane##c += splat.light##c * along;
 #define ADD_TO_PLANE_WHERE_DRAWN(c) \

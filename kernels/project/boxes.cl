@@ -24,13 +24,8 @@ static inline float least_of(VALUE values) {
   return least;
 }
 
-__kernel void find_boxes(const ProjectParameters p, __global const float* positions,
-                         __global const float* smoothing_lengths, __global const float* weights,
-                         __global const float* colors, __global const float* intensities,
-                         __global const float* sort_fields, __global const float* own_colors,
-                         __global BlockBox* boxes) {
-  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields, own_colors);
+__kernel void find_boxes(const ProjectParameters p, COLUMN_PARAMETERS, __global BlockBox* boxes) {
+  const Columns columns = TAKEN_COLUMNS;
   const uint block = get_global_id(0);
   const uint begin = p.launch.first_particle + block * p.launch.block_particles;
   const uint end = min(begin + p.launch.block_particles, p.launch.end_particle);

@@ -1,11 +1,9 @@
 // Which particles are around the camera, and by which keys they are sorted.
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
-#include "kernels/project/around.cl"
 #include "kernels/project/depth_key.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"
-#include "kernels/project/sort_keys.cl"
 #include "kernels/project/view.cl"
 
 #pragma OPENCL FP_CONTRACT OFF
@@ -54,12 +52,8 @@ KERNEL_BODY void list_block(const ProjectParameters* of_frame, const Columns* of
 // Work-item: one of the blocks of particles that `blocks` numbers. `listed[0]` counts them, and
 // three words each from listed[3] on take a particle and the low and the high word of its key, in
 // any order.
-__kernel void list_around(const ProjectParameters p, __global const float* positions,
-                          __global const float* smoothing_lengths, __global const float* weights,
-                          __global const float* colors, __global const float* intensities,
-                          __global const float* sort_fields, __global const float* own_colors,
-                          __global const uint* blocks, __global uint* listed, const uint capacity) {
-  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields, own_colors);
+__kernel void list_around(const ProjectParameters p, COLUMN_PARAMETERS, __global const uint* blocks,
+                          __global uint* listed, const uint capacity) {
+  const Columns columns = TAKEN_COLUMNS;
   list_block(&p, &columns, blocks[get_global_id(0)], listed, capacity);
 }

@@ -1,7 +1,6 @@
 // The fields of LANES particles, as memory holds them.
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/prefetch.cl"
 #include "kernels/project/project.h"
 
 // LANES values from index i on; those from `end` on repeat the last one, since a mapped
@@ -72,20 +71,14 @@ typedef struct Columns {
       *sort_fields, *own_colors;
 } Columns;
 
-INLINED Columns columns_of(__global const float* positions, __global const float* smoothing_lengths,
-                           __global const float* weights, __global const float* colors,
-                           __global const float* intensities, __global const float* sort_fields,
-                           __global const float* own_colors) {
-  Columns columns;
-  columns.positions = positions;
-  columns.smoothing_lengths = smoothing_lengths;
-  columns.weights = weights;
-  columns.colors = colors;
-  columns.intensities = intensities;
-  columns.sort_fields = sort_fields;
-  columns.own_colors = own_colors;
-  return columns;
-}
+// As kernels take them.
+#define COLUMN_PARAMETERS                                                   \
+  __global const float *positions, __global const float *smoothing_lengths, \
+      __global const float *weights, __global const float *colors,          \
+      __global const float *intensities, __global const float *sort_fields, \
+      __global const float *own_colors
+#define TAKEN_COLUMNS \
+  { positions, smoothing_lengths, weights, colors, intensities, sort_fields, own_colors }
 
 typedef struct ParticleLanes {
   INTEGER exists;

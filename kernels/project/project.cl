@@ -9,13 +9,10 @@
 #include "kernels/bin/tiles.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/pieces.cl"
-#include "kernels/common/prefetch.cl"
 #include "kernels/common/splat.cl"
 #include "kernels/common/splat.h"
 #include "kernels/project/depth_key.cl"
 #include "kernels/project/load.cl"
-#include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_arrays.cl"
 #include "kernels/project/splat_lanes.cl"
 #include "kernels/project/splat_place.cl"
@@ -186,29 +183,10 @@ __attribute__((noinline)) static void project_block(
   if (COUNT_KEYS) to.key_bins[block] = bins;
 }
 
-// counts[b] takes the block's numbers of visible and bad particles. With OUTPUT_SPLATS the splats
-// are written from offsets[b] on; with OUTPUT_KEYS the upper 32 bits of their sort keys, and the 16
-// bits below them where depths are keys, too; with COUNT_TILES tile_counts[b * tile_count + t]
-// takes how many of the block's splats touch tile t, and tiles[slot] which they are; with
-// COUNT_KEYS key_counts[bin] grows by the splats of each bin, and key_bins[b] takes the block's.
-// Where there are keys, only splats in the window of keys are there. Of a block that no part of the
-// picture shows, left_out[b] is the number of its bad particles and 1 more, else 0.
-__kernel void project(const ProjectParameters p, const SharpParameters e,
-                      __global const float* positions, __global const float* smoothing_lengths,
-                      __global const float* weights, __global const float* colors,
-                      __global const float* intensities, __global const float* sort_fields,
-                      __global const float* own_colors, __global const uint* offsets,
-                      __global BlockCounts* counts, __global Splat* splats, __global uint* keys,
-                      __global ushort* key_ends, __global const WidthNeeds* width_needs,
-                      __global const uint* left_out,
-                      __global const ComponentColors* component_colors, __global const float* knots,
-                      __global uint* key_counts, __global KeyBins* key_bins,
-                      __global const Grid* grids, __global uint* tile_counts,
-                      __global uint* tiles) {
+__kernel void project(PROJECT_PARAMETERS) {
   const uint block = piece_of_item(blocks_of(p));
   if (block == NO_PIECE) return;
-  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields, own_colors);
+  const Columns columns = TAKEN_COLUMNS;
   const ProjectTargets targets = {counts,     splats,   keys,        key_ends,
                                   key_counts, key_bins, tile_counts, tiles};
   project_block(block, &p, &e, NUMBERS_OF_LANES, &columns, offsets, width_needs, left_out,

@@ -5,13 +5,12 @@
 #if DOUBLE_NUMBERS
 #include "kernels/project/exact_point.cl"
 #endif
-#include "kernels/common/group.h"
+#include "kernels/common/grid.h"
 #include "kernels/common/group_sums.cl"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/splat.h"
 #include "kernels/project/depth_key.cl"
 #include "kernels/project/load.cl"
-#include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_arrays.cl"
 #include "kernels/project/splat_lanes.cl"
 #include "kernels/project/splat_place.cl"
@@ -39,18 +38,9 @@ KERNEL_BODY void project_particle(uint i, const ProjectParameters* p,
   }
 }
 
-// As project.cl says. left_out[b] is that of a launch's group b, whose items meet every barrier all
+// left_out[b] is that of a launch's group b, whose items meet every barrier all
 // the same.
-__kernel OF_GROUPS void project(
-    const ProjectParameters p, const SharpParameters e, __global const float* positions,
-    __global const float* smoothing_lengths, __global const float* weights,
-    __global const float* colors, __global const float* intensities,
-    __global const float* sort_fields, __global const float* own_colors,
-    __global const uint* offsets, __global BlockCounts* counts, __global Splat* splats,
-    __global uint* keys, __global ushort* key_ends, __global const WidthNeeds* width_needs,
-    __global const uint* left_out, __global const ComponentColors* component_colors,
-    __global const float* knots, __global uint* key_counts, __global KeyBins* key_bins,
-    __global const Grid* grids, __global uint* tile_counts, __global uint* tiles) {
+__kernel OF_GROUPS void project(PROJECT_PARAMETERS) {
   __local uint sums[GROUP_ITEMS];
   __local BlockCounts of_group;
   const uint item = get_local_id(0), block = p.launch.first_block + get_group_id(0);
@@ -62,8 +52,7 @@ __kernel OF_GROUPS void project(
     bins.least = ~0u;
     bins.most = 0;
   }
-  const Columns columns = columns_of(positions, smoothing_lengths, weights, colors, intensities,
-                                     sort_fields, own_colors);
+  const Columns columns = TAKEN_COLUMNS;
   const uint i = p.launch.first_particle + get_global_id(0);
   SplatLanes lanes = no_splat();
   if (i < p.launch.end_particle && bad_and_one == 0)

@@ -130,13 +130,6 @@ INLINED INTEGER are_sharp(const ViewLanes view, VALUE sigma, VALUE peak,
 // So many particles may be copies of one.
 #define MOST_COPIES 400.0f
 
-// Of the lanes that are asked for: places, and what widths follow from.
-typedef struct PlaceArrays {
-  int asked[LANES];
-  REAL x[LANES], x_low[LANES], y[LANES], y_low[LANES], scale[LANES];
-  REAL cos_latitude[LANES], sine_latitude[LANES];
-} PlaceArrays;
-
 #if DOUBLE_NUMBERS
 static inline double in_double(FloatPair a) {
   return (double)a.high + (double)a.low;
@@ -158,52 +151,33 @@ static inline ExactPoint exact_point(__global const float* position, const Sharp
                          in_double(e.eye_offset), turn_axis);
 }
 
-// Hardly any splats are.
-SELDOM_CALLED void find_sharp_places(uint i, uint end, const Columns columns,
-                                     const SharpParameters e, PlaceArrays* places) {
+INLINED void set_lane(VALUE* values, uint k, double value) {
+  ((float*)values)[k] = (float)value;
+}
+
+// The view of these lanes as well as extended numbers know it. Hardly any splats need it.
+SELDOM_CALLED void find_sharp_places(uint i, uint end, INTEGER sharp, const Columns columns,
+                                     const SharpParameters e, ViewLanes* view) {
   for (uint k = 0; k < LANES && i + k < end; ++k) {
-    if (!places->asked[k]) continue;
+    if (!integer_of(sharp, k)) continue;
     const ExactPoint point = exact_point(columns.positions + (size_t)(i + k) * 3, e);
     if (!point.seen) continue;
     const double x = in_double(e.center_from_middle_x) + point.x;
     const double y = in_double(e.center_from_middle_y) + point.y;
-    places->x[k] = (float)x;
-    places->x_low[k] = (float)(x - (double)(float)x);
-    places->y[k] = (float)y;
-    places->y_low[k] = (float)(y - (double)(float)y);
-    places->scale[k] = (float)point.scale;
-    places->cos_latitude[k] = (float)point.cos_latitude;
-    places->sine_latitude[k] = (float)point.sine_latitude;
+    set_lane(&view->x, k, x);
+    set_lane(&view->x_low, k, x - (double)(float)x);
+    set_lane(&view->y, k, y);
+    set_lane(&view->y_low, k, y - (double)(float)y);
+    set_lane(&view->scale, k, point.scale);
+    set_lane(&view->cos_latitude, k, point.cos_latitude);
+    set_lane(&view->sine_latitude, k, point.sine_latitude);
   }
 }
 #else
 // Without double precision they count as too sharp.
-INLINED void find_sharp_places(uint i, uint end, const Columns columns, const SharpParameters e,
-                               PlaceArrays* places) {}
+INLINED void find_sharp_places(uint i, uint end, INTEGER sharp, const Columns columns,
+                               const SharpParameters e, ViewLanes* view) {}
 #endif
-
-// The view of these lanes as well as extended numbers know it.
-INLINED ViewLanes sharp_view_in_wide_angle(ViewLanes view, INTEGER sharp, uint i, uint end,
-                                           const Columns columns, const SharpParameters e) {
-  PlaceArrays places;
-  STORE(sharp, places.asked);
-  STORE(view.x, places.x);
-  STORE(view.x_low, places.x_low);
-  STORE(view.y, places.y);
-  STORE(view.y_low, places.y_low);
-  STORE(view.scale, places.scale);
-  STORE(view.cos_latitude, places.cos_latitude);
-  STORE(view.sine_latitude, places.sine_latitude);
-  find_sharp_places(i, end, columns, e, &places);
-  view.x = LOAD(places.x);
-  view.x_low = LOAD(places.x_low);
-  view.y = LOAD(places.y);
-  view.y_low = LOAD(places.y_low);
-  view.scale = LOAD(places.scale);
-  view.cos_latitude = LOAD(places.cos_latitude);
-  view.sine_latitude = LOAD(places.sine_latitude);
-  return view;
-}
 
 INLINED ExtendedValue offset_in_extended(VALUE position, const float* camera) {
   FloatPair rest;

@@ -3,10 +3,9 @@
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
 #include "kernels/common/splat.h"
-#include "kernels/common/words.cl"
+#include "kernels/project/depth_key.cl"
 #include "kernels/project/extended_splat.cl"
 #include "kernels/project/project.h"
-#include "kernels/project/sort_keys.cl"
 #include "kernels/project/splat_place.cl"
 #include "kernels/project/splat_widths.cl"
 #include "kernels/project/wide_angle.cl"
@@ -179,8 +178,24 @@ typedef struct ProjectTargets {
   __global Splat* splats;
   __global uint* keys;         // the upper 32 bits of sort keys
   __global ushort* key_ends;   // the 16 bits below, of depths
-  __global uint* key_counts;   // of each bin (sort_keys.cl)
+  __global uint* key_counts;   // of each bin (depth_key.cl)
   __global KeyBins* key_bins;  // of each block
   __global uint* tile_counts;  // of each block: how many of its splats touch a tile
   __global uint* tiles;        // of each splat, where it does not hold them
 } ProjectTargets;
+
+// What the kernel `project` takes, in both shapes: counts[b] takes the block's numbers of visible
+// and bad particles. With OUTPUT_SPLATS the splats are written from offsets[b] on; with OUTPUT_KEYS
+// the upper 32 bits of their sort keys, and the 16 bits below them where depths are keys, too; with
+// COUNT_TILES tile_counts[b * tile_count + t] takes how many of the block's splats touch tile t,
+// and tiles[slot] which they are; with COUNT_KEYS key_counts[bin] grows by the splats of each bin,
+// and key_bins[b] takes the block's. Where there are keys, only splats in the window of keys are
+// there. Of a block that no part of the picture shows, left_out[b] is the number of its bad
+// particles and 1 more, else 0.
+#define PROJECT_PARAMETERS                                                                    \
+  const ProjectParameters p, const SharpParameters e, COLUMN_PARAMETERS,                      \
+      __global const uint *offsets, __global BlockCounts *counts, __global Splat *splats,     \
+      __global uint *keys, __global ushort *key_ends, __global const WidthNeeds *width_needs, \
+      __global const uint *left_out, __global const ComponentColors *component_colors,        \
+      __global const float *knots, __global uint *key_counts, __global KeyBins *key_bins,     \
+      __global const Grid *grids, __global uint *tile_counts, __global uint *tiles

@@ -1,7 +1,6 @@
 // Particles to splats, LANES at a time, step by step.
 #include "kernels/common/common.cl"
 #include "kernels/common/lanes.cl"
-#include "kernels/project/around.cl"
 #include "kernels/project/limits.cl"
 #include "kernels/project/load.cl"
 #include "kernels/project/project.h"
@@ -69,8 +68,11 @@ INLINED SplatLanes project_lanes(uint i, uint end, const ProjectParameters p,
                                         brightness.crowd_peak, p);
     // Places in wide angles need double precision.
     if (WIDE_ANGLE) s.too_sharp |= sharp & (INTEGER)(DOUBLE_NUMBERS ? 0 : -1);
-    view = WIDE_ANGLE ? sharp_view_in_wide_angle(of_center, sharp, i, end, columns, e)
-                      : sharp_view_in_plane(of_center, sharp, particles.position, p, e);
+    view = of_center;
+    if (WIDE_ANGLE)
+      find_sharp_places(i, end, sharp, columns, e, &view);
+    else
+      view = sharp_view_in_plane(view, sharp, particles.position, p, e);
     widths = find_widths(particles.h, view, p);
     view = place_of_splat(view, widths);
   }

@@ -105,3 +105,10 @@ INLINED LimitLanes compare_with_limits(const ViewLanes view, VALUE h, const Proj
   limits.unclear = inside <= rounding;
   return limits;
 }
+
+// Clouds around the camera, which are no splats: the host draws them. Good particles from so many
+// sigma on are splats; `offset` is from the camera.
+INLINED INTEGER are_around(VALUE h, const Vectors offset, const ProjectParameters p) {
+  const VALUE reach = p.around_reach * h;
+  return squared_distance(offset, p.length_scale) < reach * reach;
+}

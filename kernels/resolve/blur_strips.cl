@@ -5,7 +5,6 @@
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
 #include "kernels/common/lanes.cl"
-#include "kernels/common/prefetch.cl"
 #include "kernels/resolve/resolve.h"
 
 #define VALUES_OF_STRIP (STRIP / LANES)

@@ -3,7 +3,6 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
-#include "kernels/common/prefetch.cl"
 #include "kernels/resolve/resolve.h"
 
 // Grids have even guards, so a finer pixel is left of its coarse pixel's center where its index is

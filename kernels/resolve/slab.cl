@@ -4,7 +4,6 @@
 #include "kernels/common/common.cl"
 #include "kernels/common/grid.cl"
 #include "kernels/common/grid.h"
-#include "kernels/common/prefetch.cl"
 #include "kernels/composite/shape.cl"
 #include "kernels/resolve/refine.cl"
 #include "kernels/resolve/resolve.h"

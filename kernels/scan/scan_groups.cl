@@ -2,7 +2,6 @@
 // are scanned likewise, or, where one group could scan them, added up by every group; and every
 // group goes through its stretch again from what lies before it.
 #include "kernels/common/common.cl"
-#include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
 #include "kernels/scan/scan.h"
 

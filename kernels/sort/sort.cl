@@ -4,8 +4,6 @@
 // Also, per block, the bits that are set in some keys and in all of them: a digit that is the
 // same for all needs no pass.
 #include "kernels/common/common.cl"
-#include "kernels/common/pieces.cl"
-#include "kernels/common/prefetch.cl"
 #include "kernels/sort/short_run.cl"
 #include "kernels/sort/sort.h"
 

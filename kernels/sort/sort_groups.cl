@@ -2,7 +2,6 @@
 // local memory by the pass's digit, and writes runs of equal digits to where they belong. No group
 // waits for another.
 #include "kernels/common/common.cl"
-#include "kernels/common/group.h"
 #include "kernels/common/group_sums.cl"
 #include "kernels/sort/short_run.cl"
 #include "kernels/sort/sort.h"

@@ -60,7 +60,7 @@ __kernel void take(__global uint* results) {
             (std::vector<std::uint32_t>{0, 3, 1, 0xffffffffu, 1, 0}));
 }
 
-// Pieces of work that come with several work-items each (kernels/common/pieces.cl).
+// Pieces of work that come with several work-items each (kernels/common/common.cl).
 
 constexpr const char* kernel = R"(
 __kernel void count_pieces(const uint pieces, __global uint* times) {
@@ -73,7 +73,7 @@ __kernel void count_pieces(const uint pieces, __global uint* times) {
 class Pieces : public StageTest {};
 
 TEST_F(Pieces, AreDoneOnceEach) {
-  const Program program = device().programs.get({"kernels/common/pieces.cl", "", "", kernel});
+  const Program program = device().programs.get({"kernels/common/common.cl", "", "", kernel});
   for (const std::uint32_t pieces : {1u, 2u, 3u, 122u, 1023u, 1024u, 1025u, 5000u}) {
     const std::vector<std::uint32_t> none(pieces, 0), once(pieces, 1);
     const auto times = device().pool.upload(none, "times");
@@ -86,7 +86,7 @@ TEST_F(Pieces, AreDoneOnceEach) {
 }
 
 TEST_F(Pieces, MayBeNone) {
-  const Program program = device().programs.get({"kernels/common/pieces.cl", "", "", kernel});
+  const Program program = device().programs.get({"kernels/common/common.cl", "", "", kernel});
   const auto times = device().pool.upload(std::vector<std::uint32_t>(1, 0), "times");
   Launch(device(), "test", program.create_kernel("count_pieces"))
       .value(0u)

@@ -7,8 +7,6 @@
 // What a variant of the kernels adds to Splat and TileSplat is not seen here: Variant
 // knows their sizes.
 namespace splotchcl::shared {
-#include "kernels/common/clear.h"
-#include "kernels/common/group.h"
 #include "kernels/common/splat.h"
 // The others use what stands there.
 #include "kernels/bin/bin.h"
@@ -32,7 +30,7 @@ static_assert(has_words<GridBlurs, 11>);
 static_assert(has_words<BlurWeights, 34>);
 static_assert(has_words<BlurStripsParameters, 143>);
 static_assert(has_words<Stencil, 98>);
-static_assert(has_words<ClearParameters, 3>);
+static_assert(has_words<MemoryRange, 3>);
 static_assert(has_words<WidthAlongX, 2>);
 static_assert(has_words<Tilt, 4>);
 static_assert(has_words<ExtendedTilt, 6>);
@@ -64,7 +62,6 @@ static_assert(has_words<CloudEntry, 16>);
 static_assert(has_words<CloudSplat, 7>);
 static_assert(has_words<DirectionCone, 5>);
 static_assert(has_words<BehindParameters, 4>);
-static_assert(has_words<AddLightParameters, 3>);
 static_assert(has_words<OctaveCells, 2>);
 static_assert(has_words<CertifyParameters, 99>);
 static_assert(has_words<BlurParameters, 72>);

@@ -74,9 +74,9 @@ void clear_together(DeviceContext& device, const char* stage, const compute::buf
   // As many words as a parameter can count.
   constexpr std::uint64_t most_bytes = std::uint64_t{1} << 33;
   const std::uint64_t step = std::min(bytes, most_bytes), word = first / 4;
-  const shared::ClearParameters parameters = {static_cast<std::uint32_t>(word),
-                                              static_cast<std::uint32_t>(word >> 32),
-                                              static_cast<std::uint32_t>(step / 4)};
+  const shared::MemoryRange parameters = {static_cast<std::uint32_t>(word),
+                                          static_cast<std::uint32_t>(word >> 32),
+                                          static_cast<std::uint32_t>(step / 4)};
   const std::size_t items = ceil_divide<std::size_t>(parameters.words, CLEARED_WORDS);
   Launch(device, stage,
          device.programs.get(program_source("kernels/common/clear.cl")).create_kernel("clear"))

@@ -29,7 +29,7 @@ class Launch {
   // A work-item per unit of serial work.
   void run_items(std::size_t items);
   // The same where a piece is worth waiting for: with as many work-items, most of them idle, as
-  // keep a thread from taking too many pieces at once (pieces.cl).
+  // keep a thread from taking too many pieces at once (common.cl).
   void run_pieces(std::size_t pieces);
   // Per-pixel kernels; sizes are rounded up to whole groups.
   void run_grid(std::size_t width, std::size_t height, std::size_t depth);

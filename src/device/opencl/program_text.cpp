@@ -20,7 +20,7 @@ namespace {
 constexpr char zero_denormals[] = "-cl-denorms-are-zero";
 // As if opencl-c.h, of clang's headers, had been read.
 constexpr char without_declarations[] = "-D_OPENCL_H_";
-// What compilers have beyond the language (prefetch.cl, flags.cl).
+// What compilers have beyond the language (common.cl, flags.cl).
 constexpr char with_prefetch[] = "-DHAS_PREFETCH";
 constexpr char with_ballot[] = "-DHAS_BALLOT";
 // Of who compiles a kernel several times (common.cl).

@@ -9,21 +9,21 @@
 namespace splotchcl {
 namespace {
 
-void add(const StageContext& context, const shared::AddLightParameters& parameters,
-         std::size_t numbers, const Buffer<float>& to, const Buffer<float>& from) {
+void add(const StageContext& context, const shared::MemoryRange& parameters, std::size_t numbers,
+         const Buffer<float>& to, const Buffer<float>& from) {
   Launch(context.device, "composite",
          context.device.programs.get(add_light_program(context.variant)).create_kernel("add_light"))
       .value(parameters)
       .arg(to)
       .arg(from)
-      .run_grid((parameters.plane_floats + 7) / 8, numbers, 1);
+      .run_grid((parameters.words + 7) / 8, numbers, 1);
 }
 
 void add_planes(const StageContext& context, const Planes& to, const Planes& from, std::size_t g) {
   const shared::Grid& grid = context.layout.grids[g];
   const std::size_t planes = context.variant.planes();
-  const shared::AddLightParameters parameters = {grid.first_float_low, grid.first_float_high,
-                                                 grid.plane_size};
+  const shared::MemoryRange parameters = {grid.first_float_low, grid.first_float_high,
+                                          grid.plane_size};
   if ((to.used_grids >> g & 1) != 0) {
     add(context, parameters, context.variant.extended ? planes / 2 : planes, to.light, from.light);
     return;
@@ -44,7 +44,7 @@ SplatLight add(const StageContext& context, SplatLight to, SplatLight from) {
   if (to.cells.size() == 0) {
     to.cells = std::move(from.cells);
   } else if (from.cells.size() > 0) {
-    const shared::AddLightParameters cells = {0, 0, static_cast<std::uint32_t>(to.cells.size())};
+    const shared::MemoryRange cells = {0, 0, static_cast<std::uint32_t>(to.cells.size())};
     add(context, cells, 1, to.cells, from.cells);
   }
   return to;
