@@ -93,6 +93,10 @@ class FrameDrawer {
   // the same views, the light is the mean of theirs.
   DrawnFrame draw(const Scene& scene, const Snapshot& snapshot, OtherScenes& other_scenes,
                   const std::vector<Moment>& moments = {});
+  // What the scene's finish leaves open, of this frame; from rough light where a tree of merged
+  // particles may serve. None of a black picture.
+  std::optional<FinishSettings> find_finish(const Scene& scene, const Snapshot& snapshot,
+                                            OtherScenes& other_scenes);
   // For a frame of the scene that has been loaded already, with any crop.
   DrawnFrame draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot);
   // For one of a film, with what is known to be told of it.

@@ -60,7 +60,7 @@ WeighedNode NodeWeigher::weigh(const TreePart& part, const TreeItem& item,
   weighed.fate = NodeFate::open;
   weighed.children =
       static_cast<std::uint8_t>(std::bitset<8>(tree.levels[level].children[item.node]).count());
-  const auto place = place_of(part, item, level, reach);
+  const auto place = place_of(part, item, level, opens_across_faces_ ? reach : 0);
   if (!place) return weighed;
   using namespace boost::qvm;
   const CameraFrame& camera = frame_.camera;

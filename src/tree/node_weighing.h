@@ -29,10 +29,15 @@ struct WeighedNode {
 // Looks at nodes as a frame shows them.
 class NodeWeigher {
  public:
-  // Only what may be seen in the regions counts, or what lies in them. All have to stay.
+  // Only what may be seen in the regions counts, or what lies in them. Nodes across the faces of a
+  // periodic box are opened, or lie where their centroid does. All have to stay.
   NodeWeigher(const Frame& frame, const std::vector<Rectangle>& regions, const ErrorCells& cells,
-              bool has_to_lie_there)
-      : frame_(frame), regions_(regions), cells_(cells), has_to_lie_there_(has_to_lie_there) {}
+              bool has_to_lie_there, bool opens_across_faces)
+      : frame_(frame),
+        regions_(regions),
+        cells_(cells),
+        has_to_lie_there_(has_to_lie_there),
+        opens_across_faces_(opens_across_faces) {}
 
   WeighedNode weigh(const TreePart& part, const TreeItem& item, std::size_t level) const;
 
@@ -48,7 +53,7 @@ class NodeWeigher {
   const Frame& frame_;
   const std::vector<Rectangle>& regions_;
   const ErrorCells& cells_;
-  bool has_to_lie_there_;
+  bool has_to_lie_there_, opens_across_faces_;
 };
 
 }  // namespace splotchcl

@@ -96,7 +96,7 @@ class Cutter {
         regions_(settings.regions.empty() ? std::vector<Rectangle>{frame.crop} : settings.regions),
         parts_(tree_parts(frame)),
         sums_(frame.crop),
-        weigher_(frame, regions_, sums_.errors, settings.only_counts),
+        weigher_(frame, regions_, sums_.errors, settings.only_counts, settings.corrections > 0),
         limits_(settings.error, has_sums(frame)),
         nodes_(frame.components.size(), 0),
         particles_(frame.components.size(), 0) {}

@@ -15,7 +15,7 @@ struct CutSettings {
   // Only what may be seen here is drawn, for a frame of this crop; none: the frame's crop.
   std::vector<Rectangle> regions;
   // So often limits are corrected by what nodes were found to err by. Without, a cut is quick and
-  // keeps its error only roughly.
+  // keeps its error only roughly: nodes across the faces of a periodic box are not opened.
   int corrections = 2;
   // Nodes and particles are counted, where their places lie in the regions, and not drawn.
   bool only_counts = false;

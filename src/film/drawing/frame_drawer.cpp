@@ -104,7 +104,7 @@ std::optional<std::string> tell_of_bad_particles(const RenderStats& stats) {
 // The ranks that have the particles of a frame wait for each other while they draw. What they have
 // not agreed upon nobody else could hear of.
 template <class Draw>
-DrawnFrame all_or_none(const Frame& frame, const Draw& draw) {
+auto all_or_none(const Frame& frame, const Draw& draw) -> decltype(draw()) {
   if (!frame.spread) return draw();
   constexpr int failed = 1;
   Communicator& ranks = frame.spread->ranks();
@@ -200,20 +200,32 @@ struct FrameDrawer::State {
     return uses_tree(view, tree);
   }
 
-  // For frames with a tree of merged particles.
+  bool may_draw_tree(const Frame& frame) const {
+    return renderer.valid() && !plan_options.certify && may_use_tree(frame, tree);
+  }
+
+  // Of a frame with a tree of merged particles.
+  Image draw_roughly(const Frame& frame, std::uint64_t splats) {
+    RenderStats ignored;
+    TreePreview preview;
+    const std::optional<Frame> nodes = preview.of(frame, splats);
+    return draw_alone(nodes ? *nodes : frame, ignored);
+  }
+
   LooseDrawing loose_drawing() {
     constexpr std::uint64_t rough_splats = 200000;
     LooseDrawing loose;
-    loose.serves = [this](const Frame& frame) {
-      return renderer.valid() && !plan_options.certify && may_use_tree(frame, tree);
-    };
-    loose.draw_roughly = [this](const Frame& frame) {
-      RenderStats ignored;
-      TreePreview preview;
-      const std::optional<Frame> nodes = preview.of(frame, rough_splats);
-      return draw_alone(nodes ? *nodes : frame, ignored);
-    };
+    loose.serves = [this](const Frame& frame) { return may_draw_tree(frame); };
+    loose.draw_roughly = [this](const Frame& frame) { return draw_roughly(frame, rough_splats); };
     return loose;
+  }
+
+  // All that tells how bright a picture is.
+  Image draw_for_tone(const Frame& view, DrawnFrame& drawn) {
+    if (!may_draw_tree(view)) return draw_view(view, drawn);
+    constexpr std::uint64_t splats_of_pixel = 4;
+    return draw_roughly(view, splats_of_pixel * static_cast<std::uint64_t>(view.crop.width) *
+                                  static_cast<std::uint64_t>(view.crop.height));
   }
 
   Image draw_alone(const Frame& view, RenderStats& total) {
@@ -275,6 +287,17 @@ struct FrameDrawer::State {
     return image;
   }
 
+  std::optional<FinishSettings> find_finish(const Scene& scene, const Frame& frame,
+                                            const SnapshotInfo& snapshot,
+                                            OtherScenes& other_scenes) {
+    DrawnFrame drawn;
+    DrawnPictures pictures = draw_pictures(
+        scene, frame, snapshot, [&](const Frame& view) { return draw_for_tone(view, drawn); },
+        drawn.notes, other_scenes, light, {}, {}, {});
+    if (pictures.is_black) return std::nullopt;
+    return std::move(pictures.finish);
+  }
+
   DrawnFrame draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot,
                   OtherScenes& other_scenes, std::vector<std::string> notes,
                   const std::vector<Moment>& moments = {}) {
@@ -327,6 +350,14 @@ DrawnFrame FrameDrawer::draw(const Scene& scene, const Snapshot& snapshot,
   std::vector<std::string> notes;
   const Frame frame = load_frame(scene, snapshot, notes, state_->progress);
   return draw(scene, frame, snapshot.info(), other_scenes, std::move(notes), moments);
+}
+
+std::optional<FinishSettings> FrameDrawer::find_finish(const Scene& scene, const Snapshot& snapshot,
+                                                       OtherScenes& other_scenes) {
+  std::vector<std::string> ignored;  // told where the frame is drawn
+  const Frame frame = load_frame(scene, snapshot, ignored, state_->progress);
+  return all_or_none(
+      frame, [&] { return state_->find_finish(scene, frame, snapshot.info(), other_scenes); });
 }
 
 DrawnFrame FrameDrawer::draw(const Scene& scene, const Frame& frame, const SnapshotInfo& snapshot) {

@@ -13,7 +13,9 @@
 #include "load/placement.h"
 #include "load/select_particles.h"
 #include "load/type_fields.h"
+#include "scene/ceil_divide.h"
 #include "scene/constants.h"
+#include "scene/particle_columns.h"
 #include "snapshot/field_names.h"
 #include "splotchcl/error.h"
 
@@ -236,6 +238,13 @@ std::set<int> types_of(const Scene& scene, const Snapshot& snapshot) {
   return types;
 }
 
+std::uint64_t count_drawn(const Scene& scene, const Snapshot& snapshot) {
+  std::uint64_t count = 0;
+  for (const int type : types_of(scene, snapshot))
+    count += snapshot.info().find_type(type)->count;
+  return count;
+}
+
 // Particles and where each is among those of its type.
 struct Candidates {
   PointCloud cloud;
@@ -244,15 +253,18 @@ struct Candidates {
 };
 
 Vec3 vector_at(const Column& column, std::size_t i) {
-  return {{static_cast<double>(column[3 * i]), static_cast<double>(column[3 * i + 1]),
-           static_cast<double>(column[3 * i + 2])}};
+  const ColumnStretch axes(column, 3 * i, 3 * i + 3);
+  return {{static_cast<double>(axes[3 * i]), static_cast<double>(axes[3 * i + 1]),
+           static_cast<double>(axes[3 * i + 2])}};
 }
 
-void add(const Snapshot& snapshot, int type, const ParticleIndices* chosen, Candidates& all) {
+// Of those that are chosen, or else of all, every `step`-th.
+void add(const Snapshot& snapshot, int type, const ParticleIndices* chosen, std::size_t step,
+         Candidates& all) {
   const Column position = snapshot.read(type, "position");
   const Vec3 origin = snapshot.position_origin();
   const std::size_t count = chosen != nullptr ? chosen->size() : position.size() / 3;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; i += step) {
     const std::size_t place = chosen != nullptr ? (*chosen)[i] : i;
     const Vec3 point = origin + vector_at(position, place);
     if (!std::isfinite(boost::qvm::mag(point))) continue;
@@ -262,8 +274,9 @@ void add(const Snapshot& snapshot, int type, const ParticleIndices* chosen, Cand
   }
 }
 
-// All that is drawn, or those of a halo or a sphere.
-Candidates candidates(const Scene& scene, const Snapshot& snapshot, const ParticleSet& set) {
+// All that is drawn, or those of a halo or a sphere; of them every `step`-th.
+Candidates candidates(const Scene& scene, const Snapshot& snapshot, const ParticleSet& set,
+                      std::size_t step = 1) {
   Candidates all;
   all.cloud.box = filled_box(scene, snapshot);
   Component selecting;
@@ -272,7 +285,7 @@ Candidates candidates(const Scene& scene, const Snapshot& snapshot, const Partic
     const TypeFields fields(snapshot, *snapshot.info().find_type(type), "path.follow", {{0, 0, 0}},
                             [](const std::string&) {});
     const auto chosen = select_particles(selecting, fields, snapshot, all.cloud.box);
-    add(snapshot, type, chosen.get(), all);
+    add(snapshot, type, chosen.get(), step, all);
   }
   return all;
 }
@@ -297,7 +310,11 @@ ParticleSet sphere_of(const Scene& scene, const Snapshot& snapshot) {
   sphere.sphere_center = follow.sphere_center;
   sphere.sphere_radius = follow.sphere_radius;
   if (follow.sphere_center && follow.sphere_radius) return sphere;
-  const Candidates all = candidates(scene, snapshot, {});
+  // The densest place is where it is among a part of so many.
+  constexpr std::uint64_t most_looked_at = std::uint64_t{1} << 22;
+  const auto step = static_cast<std::size_t>(
+      ceil_divide(std::max<std::uint64_t>(1, count_drawn(scene, snapshot)), most_looked_at));
+  const Candidates all = candidates(scene, snapshot, {}, step);
   if (all.cloud.points.empty()) refuse_empty(follow, snapshot);
   if (!sphere.sphere_center) sphere.sphere_center = densest_point(all.cloud);
   if (!sphere.sphere_radius) sphere.sphere_radius = dense_radius(all.cloud, *sphere.sphere_center);

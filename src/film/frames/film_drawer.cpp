@@ -118,9 +118,9 @@ bool FilmDrawer::lacks_tone(const Scene& scene, const OtherScenes& other_scenes)
 
 void FilmDrawer::decide_tone(int frame, const Scene& scene, const Snapshot& snapshot,
                              OtherScenes& other_scenes) {
-  const DrawnFrame drawn = drawer_.draw(scene, snapshot, other_scenes);
-  if (!leaves_tone_to_pictures(scene) || !drawn.finish) return;
-  if (!has_open_tone(*drawn.finish)) tone_.add(frame, *drawn.finish);
+  const std::optional<FinishSettings> found = drawer_.find_finish(scene, snapshot, other_scenes);
+  if (!leaves_tone_to_pictures(scene) || !found) return;
+  if (!has_open_tone(*found)) tone_.add(frame, *found);
 }
 
 Scene FilmDrawer::with_known_tone(int frame, Scene scene) const {
