@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -89,10 +90,13 @@ struct Rounded {
 
 Rounded find_rounded(const DrawnComponent& component, const ParticleRun& run) {
   const Particles& particles = component.particles;
-  Rounded found;
-  for_stretches(run, [&](std::size_t begin, std::size_t end) {
+  Rounded all;
+  std::mutex of_all;
+  for_blocks(run.end - run.begin, streamed_particles, [&](std::size_t first, std::size_t last) {
+    const std::size_t begin = run.begin + first, end = run.begin + last;
     const ColumnStretch position(particles.position, 3 * begin, 3 * end);
     const ColumnStretch lengths(particles.smoothing_length, begin, end);
+    Rounded found;
     for (std::size_t i = begin; i < end; ++i) {
       const float offset[3] = {position[3 * i], position[3 * i + 1], position[3 * i + 2]};
       const double h = component.size_factor * static_cast<double>(lengths[i]);
@@ -102,8 +106,11 @@ Rounded find_rounded(const DrawnComponent& component, const ParticleRun& run) {
       ++found.count;
       found.worst = std::max(found.worst, part);
     }
+    const std::lock_guard lock(of_all);
+    all.count += found.count;
+    all.worst = std::max(all.worst, found.worst);
   });
-  return found;
+  return all;
 }
 
 }  // namespace
