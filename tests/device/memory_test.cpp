@@ -129,6 +129,17 @@ TEST_F(PoolOfAGpu, HandsOutMemoryForAlmostTheSameSize) {
   EXPECT_EQ(memory_of(buffer), memory);
 }
 
+TEST_F(PoolOfAGpu, WritesAndReadsCopiesOfMappedValues) {
+  const auto buffer = own_.get<std::uint32_t>(1000, "test");
+  {
+    const MappedValues<std::uint32_t> written = own_.map_to_write(buffer);
+    std::fill_n(written.data(), written.size(), 7u);
+  }
+  const MappedValues<const std::uint32_t> read = own_.map_to_read(buffer);
+  ASSERT_EQ(read.size(), 1000u);
+  EXPECT_EQ(std::count(read.data(), read.data() + read.size(), 7u), 1000);
+}
+
 constexpr std::size_t mebibyte = 1 << 20;
 
 class Pages : public StageTest {

@@ -145,6 +145,14 @@ void BufferPool::give_back(compute::buffer memory) {
   free_.push_back(std::move(memory));
 }
 
+void* BufferPool::map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes) {
+  compute::event event;
+  void* const values =
+      queue_.enqueue_map_buffer(memory, access, 0, static_cast<std::size_t>(bytes), event);
+  timer_.add_copy(event);
+  return values;
+}
+
 // What may lie idle beside what has been in use: without any, a little more that is wanted would
 // cost large buffers that are needed again. Of a GPU memory_of() gives seven eighths away.
 std::uint64_t BufferPool::most_idle(std::uint64_t in_use) const {

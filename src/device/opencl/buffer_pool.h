@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,47 @@ class Buffer {
   std::uint64_t size_ = 0;
 };
 
+// A buffer's values for as long as the host has them: on a device in the host's own memory without
+// a copy, else in the host's. Commands see what was written once this has gone.
+template <class T>
+class MappedValues {
+ public:
+  using Value = std::remove_const_t<T>;
+  // Those that are mapped.
+  MappedValues(compute::command_queue queue, compute::buffer memory, void* values,
+               std::size_t count)
+      : queue_(std::move(queue)), memory_(std::move(memory)), mapped_(values), size_(count) {}
+  // Copies.
+  MappedValues(compute::command_queue queue, compute::buffer memory, std::vector<Value> copies)
+      : queue_(std::move(queue)),
+        memory_(std::move(memory)),
+        copies_(std::move(copies)),
+        size_(copies_.size()) {}
+  MappedValues(const MappedValues&) = delete;
+  MappedValues& operator=(const MappedValues&) = delete;
+  ~MappedValues() {
+    // Commands that follow fail where these do.
+    if (mapped_ != nullptr) {
+      clEnqueueUnmapMemObject(queue_.get(), memory_.get(), mapped_, 0, nullptr, nullptr);
+    } else if (!std::is_const_v<T> && size_ > 0) {
+      clEnqueueWriteBuffer(queue_.get(), memory_.get(), CL_TRUE, 0, size_ * sizeof(T),
+                           copies_.data(), 0, nullptr, nullptr);
+    }
+  }
+
+  T* data() const {
+    return mapped_ != nullptr ? static_cast<T*>(mapped_) : const_cast<T*>(copies_.data());
+  }
+  std::size_t size() const { return size_; }
+
+ private:
+  compute::command_queue queue_;
+  compute::buffer memory_;
+  void* mapped_ = nullptr;
+  std::vector<Value> copies_;
+  std::size_t size_;
+};
+
 // How much of a buffer is written to. Room of which parts stay as they are has no memory there on a
 // processor, as long as it lies on small pages.
 enum class Filling { whole, in_parts };
@@ -123,15 +165,41 @@ class BufferPool {
   template <class T>
   Buffer<T> upload(const std::vector<T>& values, const char* what) {
     Buffer<T> buffer = get<T>(values.size(), what);
-    write(buffer, 0, values.data(), values.size());
+    if (!values.empty()) {
+      timer_.add_copy(queue_.enqueue_write_buffer(buffer.memory(), 0, values.size() * sizeof(T),
+                                                  values.data()));
+    }
     return buffer;
   }
   // The first `count` values; waits for the commands before.
   template <class T>
   std::vector<T> download(const Buffer<T>& buffer, std::size_t count) {
     std::vector<T> values(count);
-    read(buffer, 0, values.data(), count);
+    if (count > 0) {
+      timer_.add_copy(
+          queue_.enqueue_read_buffer(buffer.memory(), 0, count * sizeof(T), values.data()));
+    }
     return values;
+  }
+
+  // The first `count` values, to be read, or all values of a buffer, to be written anew; both wait
+  // for the commands before. A GPU's driver would make memory that it can copy to each time.
+  template <class T>
+  MappedValues<const T> map_to_read(const Buffer<T>& buffer, std::uint64_t count) {
+    const auto size = static_cast<std::size_t>(count);
+    if (!shares_host_memory_ || size == 0) return {queue_, buffer.memory(), download(buffer, size)};
+    return {queue_, buffer.memory(), map(buffer.memory(), CL_MAP_READ, size * sizeof(T)), size};
+  }
+  template <class T>
+  MappedValues<const T> map_to_read(const Buffer<T>& buffer) {
+    return map_to_read(buffer, buffer.size());
+  }
+  template <class T>
+  MappedValues<T> map_to_write(const Buffer<T>& buffer) {
+    const auto count = static_cast<std::size_t>(buffer.size());
+    if (!shares_host_memory_) return {queue_, buffer.memory(), std::vector<T>(count)};
+    return {queue_, buffer.memory(),
+            map(buffer.memory(), CL_MAP_WRITE_INVALIDATE_REGION, count * sizeof(T)), count};
   }
 
   // Values from number `first` on, of memory that is there; both wait for it.
@@ -161,6 +229,7 @@ class BufferPool {
   compute::buffer buffer_of_device(std::size_t bytes, Filling filling);
   std::array<PooledMemory, 2> take_two(std::uint64_t bytes, const char* what);
   void give_back(compute::buffer memory);
+  void* map(const compute::buffer& memory, cl_map_flags access, std::uint64_t bytes);
   std::uint64_t most_idle(std::uint64_t in_use) const;
   void release_until_it_fits(std::uint64_t wanted);
 

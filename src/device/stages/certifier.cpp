@@ -208,7 +208,8 @@ void Certifier::collect_in_groups(const TileLists& lists,
 CellsOfTiles Certifier::read(const Buffer<float>& cells) const {
   CellsOfTiles read;
   if (cells.size() == 0) return read;
-  read.values = context_.device.pool.download(cells, static_cast<std::size_t>(cells.size()));
+  const MappedValues<const float> values = context_.device.pool.map_to_read(cells);
+  read.values.assign(values.data(), values.data() + values.size());
   read.parameters = parameters_;
   read.tile_count = context_.layout.tile_count;
   read.tile_width = static_cast<int>(context_.variant.tile_width);

@@ -113,7 +113,8 @@ shared::DirectionCone look_through(const StageContext& context, int left, int to
 void fill_directions(const StageContext& context, CloudTables& tables) {
   const shared::Grid& grid = context.layout.grids.front();
   BufferPool& pool = context.device.pool;
-  std::vector<float> planes(std::size_t{3} * grid.plane_size);
+  tables.directions = pool.get<float>(std::uint64_t{3} * grid.plane_size, "directions");
+  const MappedValues<float> planes = pool.map_to_write(tables.directions);
   const auto columns = static_cast<std::size_t>(grid.tiles_x);
   std::vector<shared::DirectionCone> cones(columns * static_cast<std::size_t>(grid.tiles_y));
   for_blocks(cones.size(), 8, [&](std::size_t first, std::size_t end) {
@@ -125,7 +126,6 @@ void fill_directions(const StageContext& context, CloudTables& tables) {
           look_through(context, grid.first_x + left, grid.first_y + top, planes.data(), directions);
     }
   });
-  tables.directions = pool.upload(planes, "directions");
   tables.cones = pool.upload(cones, "cones of directions");
 }
 

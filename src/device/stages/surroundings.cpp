@@ -59,7 +59,9 @@ Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& lay
   const auto height = static_cast<std::size_t>(context.frame.crop.height);
   const std::size_t channels = channels_of_layer(context.plan);
   const std::size_t planes = context.plan.is_extended() ? 2 : 1, pixels = width * height;
-  std::vector<float> floats(planes * channels * pixels);
+  BufferPool& pool = context.device.pool;
+  Buffer<float> buffer = pool.get<float>(planes * channels * pixels, "clouds around");
+  const MappedValues<float> mapped = pool.map_to_write(buffer);
   constexpr std::size_t rows_at_once = 8;
   for_blocks(height, rows_at_once, [&](std::size_t first, std::size_t end) {
     std::vector<double> row;
@@ -70,16 +72,16 @@ Buffer<float> layer_planes(const StageContext& context, const SmoothPicture& lay
         number = std::max(number, 0.0);
       for (std::size_t c = 0; c < channels; ++c) {
         double* const numbers = row.data() + c * width;
-        float* const to = floats.data() + planes * c * pixels + y * width;
+        float* const to = mapped.data() + planes * c * pixels + y * width;
         if (c >= 3) carry_depths(numbers, width, context.plan.layers.keeps_transmittance);
-        for (std::size_t x = 0; x < width; ++x) {
+        for (std::size_t x = 0; x < width; ++x)
           to[x] = static_cast<float>(numbers[x]);
-          if (planes == 2) to[x + pixels] = pair_of(numbers[x]).low;
-        }
+        for (std::size_t x = 0; planes == 2 && x < width; ++x)
+          to[x + pixels] = pair_of(numbers[x]).low;
       }
     }
   });
-  return context.device.pool.upload(floats, "clouds around");
+  return buffer;
 }
 
 // Less of a column of 1 shows nowhere, however many there are.

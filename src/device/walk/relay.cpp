@@ -32,15 +32,15 @@ void carry_splats(const StageContext& context, const SortedSplats& sorted, std::
 std::vector<std::uint64_t> sort_keys_up_to(const StageContext& context, const KeyedSplats& keyed,
                                            std::uint64_t last) {
   BufferPool& pool = context.device.pool;
-  const auto upper = pool.download(keyed.keys, keyed.count);
+  const auto upper = pool.map_to_read(keyed.keys, keyed.count);
   const bool has_ends = keyed.key_ends.size() > 0;
-  const auto slots = pool.download(keyed.order, has_ends ? keyed.count : 0);
-  const auto ends = pool.download(keyed.key_ends, static_cast<std::size_t>(keyed.key_ends.size()));
+  const auto slots = pool.map_to_read(keyed.order, has_ends ? keyed.count : 0);
+  const auto ends = pool.map_to_read(keyed.key_ends, keyed.key_ends.size());
   std::vector<std::uint64_t> keys;
   for (std::size_t i = 0; i < upper.size(); ++i) {
-    if (upper[i] > last >> 16) continue;
-    const std::uint64_t end = has_ends ? ends[slots[i]] : 0;
-    const std::uint64_t key = std::uint64_t{upper[i]} << 16 | end;
+    if (upper.data()[i] > last >> 16) continue;
+    const std::uint64_t end = has_ends ? ends.data()[slots.data()[i]] : 0;
+    const std::uint64_t key = std::uint64_t{upper.data()[i]} << 16 | end;
     if (key <= last) keys.push_back(key);
   }
   return keys;
