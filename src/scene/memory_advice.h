@@ -20,6 +20,8 @@ void expect_few_values(const Column& column);
 // Values [begin, end) will be asked for soon: begins to read them.
 void read_ahead(const Column& column, std::size_t begin, std::size_t end);
 
+constexpr std::size_t large_page_bytes = std::size_t{2} << 20;
+
 // New memory that will be written to from end to end: on pages of 2 MiB, where the system has such,
 // it is made with a five-hundredth of the interruptions that small ones take.
 void expect_all_written(void* memory, std::size_t bytes);
@@ -32,7 +34,6 @@ void make_pages(void* memory, std::size_t bytes);
 template <class T>
 struct LargePageAllocator {
   using value_type = T;
-  static constexpr std::size_t page_bytes = std::size_t{2} << 20;
 
   LargePageAllocator() = default;
   template <class U>
@@ -41,13 +42,13 @@ struct LargePageAllocator {
   T* allocate(std::size_t count) {
     const std::size_t bytes = count * sizeof(T);
     if (!is_long(count)) return static_cast<T*>(::operator new(bytes));
-    void* const memory = ::operator new (bytes, std::align_val_t{page_bytes});
+    void* const memory = ::operator new (bytes, std::align_val_t{large_page_bytes});
     expect_all_written(memory, bytes);
     return static_cast<T*>(memory);
   }
   void deallocate(T* memory, std::size_t count) {
     if (is_long(count)) {
-      ::operator delete (memory, std::align_val_t{page_bytes});
+      ::operator delete (memory, std::align_val_t{large_page_bytes});
     } else {
       ::operator delete(memory);
     }
@@ -56,7 +57,7 @@ struct LargePageAllocator {
   friend bool operator!=(const LargePageAllocator&, const LargePageAllocator&) { return false; }
 
  private:
-  static bool is_long(std::size_t count) { return count * sizeof(T) >= 2 * page_bytes; }
+  static bool is_long(std::size_t count) { return count * sizeof(T) >= 2 * large_page_bytes; }
 };
 template <class T>
 using LargeVector = std::vector<T, LargePageAllocator<T>>;
