@@ -163,10 +163,11 @@ class Cutter {
     constexpr std::size_t stretches = 8, fewest = 4096;
     const std::size_t count = walk.reached.size();
     const std::size_t stretch = std::max(fewest, ceil_divide(count, stretches));
-    std::vector<Sums> sums(ceil_divide(count, stretch), Sums(frame_.crop));
+    const std::size_t parts = ceil_divide(count, stretch);
+    std::vector<Sums> sums(parts > 1 ? parts : 0, Sums(frame_.crop));  // one needs no other
     walk.is_opened.resize(count);
     for_blocks(count, stretch, [&](std::size_t first, std::size_t last) {
-      Sums& own = sums[first / stretch];
+      Sums& own = sums.empty() ? sums_ : sums[first / stretch];
       for (std::size_t r = first; r < last; ++r) {
         const WeighedNode& node = walk.levels[level].weighed[walk.reached[r]];
         const bool is_kept = node.fate == NodeFate::weighed && limits_.keeps(node, sums_.errors);
