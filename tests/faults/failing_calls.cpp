@@ -58,11 +58,27 @@ class Elsewhere {
   Elsewhere& operator=(const Elsewhere&) = delete;
 };
 
+// The function that would be called without this file. It is looked for by whichever thread asks
+// first, without a lock: one that loads a library keeps all others from looking, and would itself
+// wait for one that keeps a lock and looks.
 template <typename Function>
-Function* next(Function*, const char* name) {
-  const Elsewhere here;  // it may allocate
-  return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
-}
+class Original {
+ public:
+  constexpr Original(Function*, const char* name) : name_(name) {}
+  operator Function*() {
+    Function* known = known_;
+    if (known == nullptr) {
+      const Elsewhere here;  // it may allocate
+      known = reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name_));
+      known_ = known;
+    }
+    return known;
+  }
+
+ private:
+  const char* name_;
+  std::atomic<Function*> known_{nullptr};
+};
 
 struct Fault {
   int call = -1;  // of counted_calls
@@ -99,10 +115,10 @@ CallCounts* shared_counts() {
   const char* const path = std::getenv("SPLOTCHCL_FAULT_COUNTS");
   static CallCounts own;
   if (path == nullptr) return &own;
-  static auto* const original = next(&open, "open");
+  static Original original(&open, "open");
   const int file = original(path, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0 || ::ftruncate64(file, sizeof(CallCounts)) != 0) std::abort();
-  static auto* const map = next(&mmap, "mmap");
+  static Original map(&mmap, "mmap");
   void* const memory =
       map(nullptr, sizeof(CallCounts), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
   if (memory == MAP_FAILED) std::abort();
@@ -141,7 +157,7 @@ mode_t mode_in(int flags, std::va_list arguments) {
 
 extern "C" int sigaction(int signal, const struct sigaction* action,
                          struct sigaction* before) noexcept {
-  static auto* const original = next(&sigaction, "sigaction");
+  static Original original(&sigaction, "sigaction");
   const int result = original(signal, action, before);
   if (signal == SIGILL) is_guarded = true;
   return result;
@@ -150,7 +166,7 @@ extern "C" int sigaction(int signal, const struct sigaction* action,
 // A call that fails as a whole: what it counts as, its error, and what it returns then.
 #define FAILING(counted, error, result, type, name, parameters, arguments, specifier) \
   extern "C" type name parameters specifier {                                         \
-    static auto* const original = next(&name, #name);                                 \
+    static Original original(&name, #name);                                           \
     return fails(counted) ? failure<type>(error, result) : original arguments;        \
   }                                                                                   \
   static_assert(true)
@@ -162,7 +178,7 @@ extern "C" int open(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = mode_in(flags, arguments);
   va_end(arguments);
-  static auto* const original = next(&open, "open");
+  static Original original(&open, "open");
   return fails("open") ? failure(EMFILE, -1) : original(path, flags, mode);
 }
 
@@ -171,7 +187,7 @@ extern "C" int open64(const char* path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = mode_in(flags, arguments);
   va_end(arguments);
-  static auto* const original = next(&open64, "open64");
+  static Original original(&open64, "open64");
   return fails("open") ? failure(EMFILE, -1) : original(path, flags, mode);
 }
 
@@ -200,7 +216,7 @@ FAILING("read", ECONNRESET, -1, ssize_t, recvmsg,
         (int descriptor, struct msghdr* message, int flags), (descriptor, message, flags), );
 
 extern "C" ssize_t write(int descriptor, const void* data, std::size_t bytes) {
-  static auto* const original = next(&write, "write");
+  static Original original(&write, "write");
   if (descriptor > STDERR_FILENO) {
     if (fails("write")) return failure<ssize_t>(ENOSPC, -1);
     if (fails("short_write")) bytes = (bytes + 1) / 2;
@@ -209,21 +225,21 @@ extern "C" ssize_t write(int descriptor, const void* data, std::size_t bytes) {
 }
 
 extern "C" ssize_t pwrite(int descriptor, const void* data, std::size_t bytes, off_t where) {
-  static auto* const original = next(&pwrite, "pwrite");
+  static Original original(&pwrite, "pwrite");
   if (fails("write")) return failure<ssize_t>(ENOSPC, -1);
   if (fails("short_write")) bytes = (bytes + 1) / 2;
   return original(descriptor, data, bytes, where);
 }
 
 extern "C" ssize_t pwrite64(int descriptor, const void* data, std::size_t bytes, off64_t where) {
-  static auto* const original = next(&pwrite64, "pwrite64");
+  static Original original(&pwrite64, "pwrite64");
   if (fails("write")) return failure<ssize_t>(ENOSPC, -1);
   if (fails("short_write")) bytes = (bytes + 1) / 2;
   return original(descriptor, data, bytes, where);
 }
 
 extern "C" ssize_t writev(int descriptor, const struct iovec* parts, int count) {
-  static auto* const original = next(&writev, "writev");
+  static Original original(&writev, "writev");
   if (descriptor > STDERR_FILENO) {
     if (fails("write")) return failure<ssize_t>(ENOSPC, -1);
     if (fails("short_write") && count > 1) count = 1;
@@ -237,14 +253,14 @@ FAILING("fsync", EIO, -1, int, fsync, (int descriptor), (descriptor), );
 
 // The descriptor is closed in any case, as Linux does it.
 extern "C" int close(int descriptor) {
-  static auto* const original = next(&close, "close");
+  static Original original(&close, "close");
   const bool is_failure = fails("close");
   const int result = original(descriptor);
   return is_failure ? failure(EIO, -1) : result;
 }
 
 extern "C" int fclose(std::FILE* file) {
-  static auto* const original = next(&fclose, "fclose");
+  static Original original(&fclose, "fclose");
   const bool is_failure = fails("close");
   const int result = original(file);
   return is_failure ? failure(EIO, EOF) : result;
@@ -269,7 +285,7 @@ extern "C" int posix_spawn(pid_t* child, const char* path,
                            const posix_spawn_file_actions_t* actions,
                            const posix_spawnattr_t* attributes, char* const* arguments,
                            char* const* environment) {
-  static auto* const original = next(&posix_spawn, "posix_spawn");
+  static Original original(&posix_spawn, "posix_spawn");
   return fails("fork") ? EAGAIN
                        : original(child, path, actions, attributes, arguments, environment);
 }
@@ -292,20 +308,20 @@ void* run_elsewhere(void* argument) {
 
 extern "C" int pthread_create(pthread_t* thread, const pthread_attr_t* attributes,
                               void* (*start)(void*), void* argument) noexcept {
-  static auto* const original = next(&pthread_create, "pthread_create");
+  static Original original(&pthread_create, "pthread_create");
   if (fails("thread")) return EAGAIN;
   if (elsewhere == 0) return original(thread, attributes, start, argument);
   return original(thread, attributes, &run_elsewhere, new ThreadOfOpenCl{start, argument});
 }
 
 extern "C" int H5open() {
-  static auto* const original = next(&H5open, "H5open");
+  static Original original(&H5open, "H5open");
   const Elsewhere here;
   return original();
 }
 
 extern "C" void* dlopen(const char* path, int mode) noexcept {
-  static auto* const original = next(&dlopen, "dlopen");
+  static Original original(&dlopen, "dlopen");
   const Elsewhere here;
   return original(path, mode);
 }
@@ -338,7 +354,7 @@ struct Within<Result(Arguments...)> {
   template <const char* name>
   static Result call(Arguments... arguments) {
     using Function = Result(Arguments...);
-    static auto* const original = next(static_cast<Function*>(nullptr), name);
+    static Original<Function> original(nullptr, name);
     const Elsewhere here;
     return original(arguments...);
   }
