@@ -129,6 +129,7 @@ struct TreeCommandOptions {
   std::vector<int> types;           // none: all
   std::vector<std::string> fields;  // none: those that a first picture of the types uses
   unsigned least = 4;
+  bool with_particles = false;
 };
 int run_tree(const TreeCommandOptions& options, Console& console);
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
@@ -73,6 +74,7 @@ int run_tree(const TreeCommandOptions& options, Console& console) {
   }
   const Scene suggested = options.fields.empty() ? suggest_scene(*snapshot) : Scene();
   std::vector<TreeOfType> trees;
+  std::vector<TreeSource> particles_of_trees;
   std::uint64_t particles = 0, nodes = 0;
   for (const int type : types_of(options, info)) {
     const std::vector<std::string> fields =
@@ -81,7 +83,7 @@ int run_tree(const TreeCommandOptions& options, Console& console) {
     const LoadProgress reading = [&](const std::string& what, double fraction) {
       console.progress(what, fraction);
     };
-    const TreeSource source = tree_source(*snapshot, type, fields, notes, reading);
+    TreeSource source = tree_source(*snapshot, type, fields, notes, reading);
     console.note_each_once(notes);
     TreeOptions of_tree;
     of_tree.least = options.least;
@@ -97,8 +99,9 @@ int run_tree(const TreeCommandOptions& options, Console& console) {
     }
     particles += trees.back().count;
     nodes += trees.back().node_count();
+    if (options.with_particles) particles_of_trees.push_back(std::move(source));
   }
-  write_trees(info, trees);
+  write_trees(info, trees, particles_of_trees);
   const std::filesystem::path path = tree_path(info);
   const auto bytes = static_cast<double>(std::filesystem::file_size(path));
   console.done(fmt::format("{}: {} particles, {} nodes, {:.2f} bytes per particle", path.string(),

@@ -92,6 +92,10 @@ void add_tree(CLI::App& app, Run& run, Console& console) {
                  "and serves less exact pictures as well"))
       ->type_name("N")
       ->check(CLI::Range(2, 32));
+  sub->add_flag("--with-particles", options->with_particles,
+                wrapped("Keep what scenes ask of the particles in the tree, too, exactly and in "
+                        "its order: 20 bytes each and more, so that what lies together in space "
+                        "is read together"));
   sub->footer(
       "Writes SNAPSHOT.splotchcl_tree, some 10 bytes per particle. Scenes with kernel.footprint "
       "are\n"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -21,29 +22,30 @@
 namespace splotchcl {
 namespace {
 
-// A column and how many particles it is for.
-struct Part {
-  Column column;
-  std::size_t count;
-};
+std::string number_and_name(int type) {
+  return fmt::format("{} ({})", type, particle_type_name(type));
+}
 
-// One after the other, `width` values per particle.
-Column joined(const std::vector<Part>& parts, std::size_t width, bool is_shared) {
+}  // namespace
+
+Column joined(const std::vector<ColumnOfType>& parts, std::size_t width, bool is_shared) {
   if (parts.size() == 1) return parts.front().column;
   const Column& first = parts.front().column;
-  const bool all_the_same = std::all_of(parts.begin(), parts.end(), [&first](const Part& part) {
-    return part.column.is_uniform() && part.column.uniform_value() == first.uniform_value();
-  });
+  const bool all_the_same =
+      std::all_of(parts.begin(), parts.end(), [&first](const ColumnOfType& part) {
+        return part.column.is_uniform() && part.column.uniform_value() == first.uniform_value();
+      });
   if (all_the_same) return first;
   std::size_t total = 0;
-  for (const Part& part : parts)
+  for (const ColumnOfType& part : parts)
     total += part.count;
   const bool streams = is_shared || is_too_large_to_copy(total * width * sizeof(float)) ||
-                       std::any_of(parts.begin(), parts.end(),
-                                   [](const Part& part) { return is_streamed(part.column); });
+                       std::any_of(parts.begin(), parts.end(), [](const ColumnOfType& part) {
+                         return is_streamed(part.column);
+                       });
   const auto make = [parts, width](std::size_t begin, std::size_t end, float* out) {
     std::size_t first = 0;  // value of the part
-    for (const Part& part : parts) {
+    for (const ColumnOfType& part : parts) {
       const std::size_t size = part.count * width;
       const std::size_t from = std::max(begin, first), to = std::min(end, first + size);
       if (from < to) {
@@ -56,12 +58,6 @@ Column joined(const std::vector<Part>& parts, std::size_t width, bool is_shared)
   };
   return make_column(total * width, streams, make);
 }
-
-std::string number_and_name(int type) {
-  return fmt::format("{} ({})", type, particle_type_name(type));
-}
-
-}  // namespace
 
 ComponentFields::ComponentFields(const Component& component, std::size_t number,
                                  const Snapshot& snapshot, const MissingSizes& sizes,
@@ -199,7 +195,7 @@ Column ComponentFields::collected(const std::string& what, const Read& read,
   // Of what ranks share each makes what it asks for.
   const bool is_shared = has_shared_passes(snapshot_);
   return snapshot_.memory().get<Column>(key, [&] {
-    std::vector<Part> parts;
+    std::vector<ColumnOfType> parts;
     for (std::size_t t = 0; t < types_.size(); ++t) {
       Column column = gather(read(types_[t]), selected_[t], width, is_shared);
       if (spread_) column = spread_->spread(column, own_count_of(t), width);
@@ -217,6 +213,13 @@ std::string ComponentFields::particles_key() const {
   return fmt::format("{}, {}", key, selection_key(component_, periodic_box_));
 }
 
+std::string ComponentFields::placed_key() const {
+  const Placement& placement = component_.placement;
+  return fmt::format("{}: placed about {} {} {} by {} scaled {}", particles_key(),
+                     placement.axis.a[0], placement.axis.a[1], placement.axis.a[2],
+                     placement.angle_degrees, placement.scale);
+}
+
 Vec3 ComponentFields::origin() const {
   return placed_origin(component_.placement, component_.center, snapshot_.position_origin());
 }
@@ -228,13 +231,41 @@ Column ComponentFields::positions() const {
   };
   const Placement& placement = component_.placement;
   if (only_moves(placement)) return as_stored();
-  const std::string key = fmt::format("{}: placed about {} {} {} by {} scaled {}", particles_key(),
-                                      placement.axis.a[0], placement.axis.a[1], placement.axis.a[2],
-                                      placement.angle_degrees, placement.scale);
-  return snapshot_.memory().get<Column>(key, [&] {
+  return snapshot_.memory().get<Column>(placed_key(), [&] {
     return placed_positions(placement, component_.center, snapshot_.position_origin(), as_stored(),
                             has_shared_passes(snapshot_));
   });
+}
+
+// Wrapped positions serve all frames of a film around the same center.
+void ComponentFields::wrap_around(const Vec3& center, Particles& particles) const {
+  using namespace boost::qvm;
+  if (!periodic_box_) return;
+  const Vec3 shift = particles.origin - center;
+  const Vec3& sides = periodic_box_->vector();
+  const std::string key =
+      fmt::format("{}: within {} {} {} around {} {} {}", particles_key(), sides.a[0], sides.a[1],
+                  sides.a[2], center.a[0], center.a[1], center.a[2]);
+  particles.position = snapshot_.memory().get<Column>(key, [&] {
+    return wrapped_positions(shift, *periodic_box_, particles.position,
+                             has_shared_passes(snapshot_));
+  });
+  if (particles.boxes) particles.boxes = wrapped_boxes(*particles.boxes, shift, *periodic_box_);
+  if (particles.tree) particles.tree = wrapped_tree(*particles.tree, center, *periodic_box_);
+  particles.origin = center;
+}
+
+// All particles are looked at for each frame only where some may have to be told of. Wrapped ones
+// lie within half a box.
+std::optional<std::string> ComponentFields::rounded_positions(const DrawnComponent& drawn) const {
+  if (!are_offsets(drawn.particles)) return std::nullopt;
+  const std::string size = component_.size_fixed ? std::string("fixed") : component_.size_field;
+  PlaceExtremes extremes = snapshot_.memory().get<PlaceExtremes>(
+      fmt::format("{}: extremes, sizes {}", placed_key(), size),
+      [&] { return find_extremes(drawn.particles, pass()); });
+  if (periodic_box_) extremes.largest_offset = static_cast<float>(periodic_box_->longest() / 2);
+  if (!may_be_rounded(extremes, drawn.size_factor)) return std::nullopt;
+  return tell_rounded_positions(drawn, pass());
 }
 
 Column ComponentFields::scalars(const std::string& field, const std::string& key) const {

@@ -13,6 +13,15 @@
 
 namespace splotchcl {
 
+// A type's column, and of how many particles.
+struct ColumnOfType {
+  Column column;
+  std::size_t count;
+};
+// One after the other, `width` values for each particle: held in memory, or streamed where they are
+// too many or ranks share them.
+Column joined(const std::vector<ColumnOfType>& parts, std::size_t width, bool is_shared);
+
 // Reads the fields of one component: the particles that it selects of the types that it
 // draws, one type after the other. Messages name the component and the scene's key that
 // asked for the field.
@@ -42,6 +51,11 @@ class ComponentFields {
   // As they are placed in the scene: origin() + positions().
   Vec3 origin() const;
   Column positions() const;
+  // Where the scene's box is periodic and they are in it, brings particles to their images nearest
+  // to a center, which becomes their origin.
+  void wrap_around(const Vec3& center, Particles& particles) const;
+  // A note on positions of what is drawn that single precision rounds too much.
+  std::optional<std::string> rounded_positions(const DrawnComponent& drawn) const;
   // One value per particle; of a vector field its length. Throws UsageError when a type
   // does not have the field.
   Column scalars(const std::string& field, const std::string& key) const;
@@ -86,6 +100,7 @@ class ComponentFields {
   std::size_t count_of(std::size_t type) const;
   std::size_t own_count_of(std::size_t type) const;
   std::string particles_key() const;
+  std::string placed_key() const;
   [[noreturn]] void refuse_types() const;
 
   const Component& component_;

@@ -35,6 +35,34 @@ std::optional<int> field_of(const TreeOfType& tree, const std::string& name) {
   return static_cast<int>(found - tree.fields.begin());
 }
 
+// Loose particles of all parts; none where they stay in the snapshot.
+Particles particles_in_order(const std::vector<TreeOfComponent::Part>& parts, const Vec3& origin) {
+  const bool are_there = std::all_of(parts.begin(), parts.end(),
+                                     [](const auto& part) { return part.tree->particles; });
+  if (!are_there) return {};
+  using Part = TreeOfComponent::Part;
+  const auto all = [&parts](std::size_t width, const auto& column_of) {
+    std::vector<ColumnOfType> columns;
+    for (const Part& part : parts)
+      columns.push_back({column_of(part), static_cast<std::size_t>(part.tree->order_count)});
+    return joined(columns, width, false);
+  };
+  const auto field = [](const Part& part, int number) {
+    return number < 0 ? Column() : part.tree->particles->fields[static_cast<std::size_t>(number)];
+  };
+  Particles particles;
+  for (const Part& part : parts)
+    particles.count += static_cast<std::size_t>(part.tree->order_count);
+  particles.origin = origin;
+  particles.position = all(3, [](const Part& part) { return part.tree->particles->position; });
+  particles.smoothing_length =
+      all(1, [](const Part& part) { return part.tree->particles->smoothing_length; });
+  particles.weight = all(1, [](const Part& part) { return part.tree->particles->weight; });
+  particles.color = all(1, [&](const Part& part) { return field(part, part.color); });
+  particles.intensity = all(1, [&](const Part& part) { return field(part, part.intensity); });
+  return particles;
+}
+
 }  // namespace
 
 std::shared_ptr<const TreeOfComponent> component_tree(const Component& component,
@@ -46,7 +74,7 @@ std::shared_ptr<const TreeOfComponent> component_tree(const Component& component
                            canonical_field_name(component.size_field) == "smoothing_length";
   if (!is_in_place || !known_trees(snapshot)) return nullptr;
   auto tree = std::make_shared<TreeOfComponent>();
-  std::uint64_t first = 0;
+  std::uint64_t first = 0, first_in_order = 0;
   for (const int type : types) {
     const Trees& trees = *known_trees(snapshot);
     const auto found = std::find_if(trees.begin(), trees.end(),
@@ -55,9 +83,13 @@ std::shared_ptr<const TreeOfComponent> component_tree(const Component& component
     const std::optional<int> color = field_of(**found, component.color.field);
     const std::optional<int> intensity = field_of(**found, component.intensity.field);
     if (!color || !intensity) return nullptr;
-    tree->parts.push_back({*found, first, *color, *intensity});
+    const bool has_order = (*found)->order != nullptr || (*found)->order_count == 0;
+    if (!has_order && !(*found)->particles) return nullptr;
+    tree->parts.push_back({*found, first, *color, *intensity, first_in_order});
     first += (*found)->count;
+    first_in_order += (*found)->order_count;
   }
+  tree->in_order = particles_in_order(tree->parts, snapshot.position_origin());
   return tree;
 }
 
@@ -67,6 +99,11 @@ std::shared_ptr<const TreeOfComponent> wrapped_tree(const TreeOfComponent& tree,
   wrapped->center = center;
   for (std::size_t axis = 0; axis < 3; ++axis)
     wrapped->period.a[axis] = periodic_box[axis];
+  Particles& in_order = wrapped->in_order;
+  constexpr bool streams = true;  // only what is looked at is wrapped
+  in_order.position =
+      wrapped_positions(Vec3(in_order.origin - center), periodic_box, in_order.position, streams);
+  in_order.origin = center;
   return wrapped;
 }
 

@@ -14,7 +14,6 @@
 #include "finish/finish_picture.h"
 #include "image/image_library.h"
 #include "load/component_fields.h"
-#include "load/component_tree.h"
 #include "load/components.h"
 #include "load/passes.h"
 #include "load/placement.h"
@@ -221,11 +220,7 @@ Frame FrameLoader::frame_of(const Camera& camera) const {
 const DrawnComponent& FrameLoader::read(Part& part, WeightModel weight, const Vec3& look_at) {
   if (part.drawn) return *part.drawn;
   DrawnComponent drawn = part.reader.drawn(weight);
-  if (periodic_box_ && is_in_the_box(part.reader.component())) {
-    wrap_around(look_at, *periodic_box_, drawn.particles, has_shared_passes(snapshot_));
-    if (drawn.particles.tree)
-      drawn.particles.tree = wrapped_tree(*drawn.particles.tree, look_at, *periodic_box_);
-  }
+  part.reader.fields().wrap_around(look_at, drawn.particles);
   if (drawn.particles.boxes) {
     for (const Column* const column : drawn.particles.columns())
       expect_few_values(*column);
@@ -304,8 +299,7 @@ Frame FrameLoader::load(const DecidedScene& decided) {
     drawn.color = numbers->color;
     drawn.intensity = numbers->intensity;
     drawn.reference_column = numbers->reference_column;
-    if (const auto note = tell_rounded_positions(drawn, part.reader.fields().pass()))
-      notes_.push_back(*note);
+    if (const auto note = part.reader.fields().rounded_positions(drawn)) notes_.push_back(*note);
     frame.components.push_back(std::move(drawn));
     ++numbers;
   }

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "load/component_boxes.h"
 #include "load/passes.h"
 #include "parallel/for_blocks.h"
 #include "scene/constants.h"
+#include "scene/memory_advice.h"
 #include "scene/particle_columns.h"
 #include "scene/statistics.h"
 #include "snapshot/load_memory.h"
@@ -76,58 +76,87 @@ namespace {
 
 constexpr double too_coarse = 0.1;  // of h
 
-// Between neighbouring floats about as large as the offset, along its longest axis.
-double spacing_at(const float* offset) {
+// Along the longest axis; 0 where it is not finite, which is counted as bad elsewhere.
+float largest_of(const float* offset) {
   const float largest = std::max({std::abs(offset[0]), std::abs(offset[1]), std::abs(offset[2])});
-  if (!std::isfinite(largest)) return 0;  // counted as bad elsewhere
-  return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::max()) - largest);
+  return std::isfinite(largest) ? largest : 0;
+}
+
+// Between neighbouring floats about as large.
+double spacing_at(float offset) {
+  return static_cast<double>(std::nextafter(offset, std::numeric_limits<float>::max()) - offset);
 }
 
 struct Rounded {
   std::uint64_t count = 0;
   double worst = 0;  // of h
+
+  void take(const Rounded& other) {
+    count += other.count;
+    worst = std::max(worst, other.worst);
+  }
 };
 
-Rounded find_rounded(const DrawnComponent& component, const ParticleRun& run) {
-  const Particles& particles = component.particles;
-  Rounded all;
-  std::mutex of_all;
-  for_blocks(run.end - run.begin, streamed_particles, [&](std::size_t first, std::size_t last) {
-    const std::size_t begin = run.begin + first, end = run.begin + last;
-    const ColumnStretch position(particles.position, 3 * begin, 3 * end);
-    const ColumnStretch lengths(particles.smoothing_length, begin, end);
-    Rounded found;
-    for (std::size_t i = begin; i < end; ++i) {
-      const float offset[3] = {position[3 * i], position[3 * i + 1], position[3 * i + 2]};
-      const double h = component.size_factor * static_cast<double>(lengths[i]);
-      if (!(h > 0)) continue;
-      const double part = spacing_at(offset) / h;
-      if (!(part > too_coarse)) continue;
-      ++found.count;
-      found.worst = std::max(found.worst, part);
-    }
-    const std::lock_guard lock(of_all);
-    all.count += found.count;
-    all.worst = std::max(all.worst, found.worst);
-  });
+// look(found, largest, h) for each particle: its offset along the longest axis, and its smoothing
+// length.
+template <class Found, class Look>
+Found look_at_places(const Particles& particles, const ParticlePass& pass, const Look& look) {
+  const auto of_run = [&](const ParticleRun& run, std::vector<Found>& results) {
+    Found all;
+    std::mutex of_all;
+    for_blocks(run.end - run.begin, streamed_particles, [&](std::size_t first, std::size_t last) {
+      const std::size_t begin = run.begin + first, end = run.begin + last;
+      const ColumnStretch position(particles.position, 3 * begin, 3 * end);
+      const ColumnStretch lengths(particles.smoothing_length, begin, end);
+      Found some;
+      for (std::size_t i = begin; i < end; ++i) {
+        const float offset[3] = {position[3 * i], position[3 * i + 1], position[3 * i + 2]};
+        look(some, largest_of(offset), lengths[i]);
+      }
+      const std::lock_guard lock(of_all);
+      all.take(some);
+    });
+    results.push_back(all);
+  };
+  Found all;
+  for (const Found& some : pass.collect<Found>(of_run))
+    all.take(some);
   return all;
 }
 
 }  // namespace
 
+bool are_offsets(const Particles& particles) {
+  const auto& origin = particles.origin.a;
+  return origin[0] != 0 || origin[1] != 0 || origin[2] != 0;
+}
+
+PlaceExtremes find_extremes(const Particles& particles, const ParticlePass& pass) {
+  return look_at_places<PlaceExtremes>(
+      particles, pass, [](PlaceExtremes& found, float largest, float h) {
+        found.largest_offset = std::max(found.largest_offset, largest);
+        if (h > 0) found.smallest_length = std::min(found.smallest_length, h);
+      });
+}
+
+bool may_be_rounded(const PlaceExtremes& extremes, double size_factor) {
+  const double least = size_factor * static_cast<double>(extremes.smallest_length);
+  return spacing_at(extremes.largest_offset) > too_coarse * least;
+}
+
 std::optional<std::string> tell_rounded_positions(const DrawnComponent& component,
                                                   const ParticlePass& pass) {
   const Particles& particles = component.particles;
-  const auto& origin = particles.origin.a;
-  if (origin[0] == 0 && origin[1] == 0 && origin[2] == 0) return std::nullopt;
-  Rounded all;
-  for (const Rounded& some :
-       pass.collect<Rounded>([&](const ParticleRun&run, std::vector<Rounded>&found) {
-         found.push_back(find_rounded(component, run));
-       })) {
-    all.count += some.count;
-    all.worst = std::max(all.worst, some.worst);
-  }
+  if (!are_offsets(particles)) return std::nullopt;
+  const Rounded all = look_at_places<Rounded>(
+      particles, pass, [&component](Rounded& found, float largest, float length) {
+        const double h = component.size_factor * static_cast<double>(length);
+        if (!(h > 0)) return;
+        const double part = spacing_at(largest) / h;
+        if (!(part > too_coarse)) return;
+        ++found.count;
+        found.worst = std::max(found.worst, part);
+      });
   if (all.count == 0) return std::nullopt;
   return fmt::format(
       "component {}: {} of {} particles lie so far from the others that single precision rounds "
@@ -148,10 +177,9 @@ bool is_in_the_box(const Component& component) {
   return component.snapshot.empty() && !component.placement.moves();
 }
 
-void wrap_around(const Vec3& center, const BoxSides& box, Particles& particles, bool streams) {
-  const Column& position = particles.position;
-  if (!position.is_array()) return;
-  const Vec3 shift = particles.origin - center;  // from stored positions to distances from it
+Column wrapped_positions(const Vec3& shift, const BoxSides& box, const Column& position,
+                         bool streams) {
+  if (!position.is_array()) return position;
   const auto wrap = [position, shift, box](std::size_t begin, std::size_t end, float* out) {
     const ColumnStretch stretch(position, begin, end);
     for (std::size_t i = begin; i < end; ++i) {
@@ -159,17 +187,11 @@ void wrap_around(const Vec3& center, const BoxSides& box, Particles& particles, 
       *out++ = static_cast<float>(nearest_image(distance, box[i % 3]));
     }
   };
-  if (streams || is_streamed(position)) {
-    particles.position = make_column(position.size(), true, wrap);
-  } else {
-    std::vector<float> wrapped(position.size());
-    for_blocks(position.size(), 3 << 16, [&](std::size_t begin, std::size_t end) {
-      wrap(begin, end, wrapped.data() + begin);
-    });
-    particles.position = Column::owning(std::move(wrapped));
-  }
-  if (particles.boxes) particles.boxes = wrapped_boxes(*particles.boxes, shift, box);
-  particles.origin = center;
+  if (streams || is_streamed(position)) return make_column(position.size(), true, wrap);
+  LargeVector<float> wrapped(position.size());
+  for_blocks(position.size(), 3 << 16,
+             [&](std::size_t begin, std::size_t end) { wrap(begin, end, wrapped.data() + begin); });
+  return owning_column(std::move(wrapped));
 }
 
 namespace {
@@ -222,6 +244,13 @@ PositionExtent sampled_extent(const Snapshot& snapshot, const ParticleTypeInfo& 
 }
 
 }  // namespace
+
+PlaceExtremes::PlaceExtremes() : smallest_length(std::numeric_limits<float>::infinity()) {}
+
+void PlaceExtremes::take(const PlaceExtremes& other) {
+  largest_offset = std::max(largest_offset, other.largest_offset);
+  smallest_length = std::min(smallest_length, other.smallest_length);
+}
 
 PositionExtent::PositionExtent() {
   constexpr double infinity = std::numeric_limits<double>::infinity();

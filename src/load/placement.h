@@ -30,6 +30,24 @@ bool only_moves(const Placement& placement);
 // By Rodrigues' formula, right-handed.
 Vec3 rotated(const Vec3& v, const Vec3& axis, double angle_degrees);
 
+// Of particles: how far from their origin one lies along an axis, and the least of their smoothing
+// lengths above 0. What is not finite does not count.
+struct PlaceExtremes {
+  PlaceExtremes();
+
+  float largest_offset = 0, smallest_length;
+
+  void take(const PlaceExtremes& other);
+};
+
+// Whether positions are offsets from an origin that is not 0.
+bool are_offsets(const Particles& particles);
+
+PlaceExtremes find_extremes(const Particles& particles, const ParticlePass& pass);
+
+// Whether there may be something to tell of rounded positions; else nobody need look.
+bool may_be_rounded(const PlaceExtremes& extremes, double size_factor);
+
 // A note where positions were stored as doubles, as offsets from an origin that is not 0, and the
 // spacing of single precision there is more than a tenth of the size h that is drawn: how many
 // particles, and how much of h at worst. Nothing where all lie as they should, or as the file has
@@ -44,12 +62,12 @@ BoxSides periodic_box(const PeriodicSettings& settings, const SnapshotInfo& snap
 // Whether it is a part of the periodic box: what is placed elsewhere is not.
 bool is_in_the_box(const Component& component);
 
-// Moves each particle to its periodic image nearest to `center`, along each axis by itself:
-// d = x - center becomes d - side * round(d / side), in double precision. The center becomes
-// the particles' origin. Values that are not finite stay so. Positions are held in memory, or made
-// as they are wanted.
-void wrap_around(const Vec3& center, const BoxSides& box, Particles& particles,
-                 bool streams = false);
+// Positions relative to a center, each particle at its periodic image nearest to that, along each
+// axis by itself: d = x + shift becomes d - side * round(d / side), in double precision, where
+// `shift` leads from the origin of the positions to the center. Values that are not finite stay so.
+// Held in memory, or made as they are wanted.
+Column wrapped_positions(const Vec3& shift, const BoxSides& box, const Column& position,
+                         bool streams = false);
 
 // Whether particles lie in the periodic box that their snapshot's header names: a header's box may
 // be that of the run that a cutout is of, or mean nothing.

@@ -201,8 +201,10 @@ void pick_from_source(const ColumnSource& source, std::size_t width,
   }
 }
 
-Column picked(const Column& column, std::size_t width, const std::vector<std::uint64_t>& places,
-              const RunBlocks& run) {
+}  // namespace
+
+Column picked_column(const Column& column, std::size_t width,
+                     const std::vector<std::uint64_t>& places, const RunBlocks& run) {
   if (!column.is_array() || column.size() == 0) return column;
   const auto source = column.source();
   LargeVector<float> values(width * places.size());
@@ -219,8 +221,6 @@ Column picked(const Column& column, std::size_t width, const std::vector<std::ui
   return owning_column(std::move(values));
 }
 
-}  // namespace
-
 Particles picked_particles(const Particles& particles, const std::vector<std::uint64_t>& places,
                            const RunBlocks& run) {
   Particles some = particles;
@@ -228,10 +228,10 @@ Particles picked_particles(const Particles& particles, const std::vector<std::ui
   some.boxes = nullptr;
   some.tree = nullptr;
   for (Column* const column : {&some.position, &some.color_vector})
-    *column = picked(*column, 3, places, run);
+    *column = picked_column(*column, 3, places, run);
   for (Column* const column :
        {&some.smoothing_length, &some.weight, &some.color, &some.intensity, &some.sort_field})
-    *column = picked(*column, 1, places, run);
+    *column = picked_column(*column, 1, places, run);
   return some;
 }
 

@@ -58,7 +58,9 @@ DrawnComponent DrawnNodes::particles(const DrawnComponent& component) const {
   const auto on_all_cores = [](std::size_t count, std::size_t block, const auto& work) {
     for_blocks(count, block, work);
   };
-  loose.particles = picked_particles(component.particles, particles_, on_all_cores);
+  const Particles& in_order = component.particles.tree->in_order;
+  loose.particles = picked_particles(in_order.count > 0 ? in_order : component.particles,
+                                     particles_, on_all_cores);
   return loose;
 }
 

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "splotchcl/particles.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/vector.h"
 #include "tree/sampled_field.h"
@@ -53,6 +55,12 @@ struct TreeLevel {
   std::uint64_t first_loose_particle(std::uint64_t node) const;
 };
 
+// Values of loose particles as the snapshot has them, in the tree's order.
+struct LooseParticles {
+  Column position, smoothing_length, weight;
+  std::vector<Column> fields;
+};
+
 struct TreeOfType {
   static constexpr std::size_t levels_at_most = 22;  // keys of 21 bits along each axis
 
@@ -66,7 +74,8 @@ struct TreeOfType {
   std::vector<TreeLevel> levels;         // from the root on, which is one node; empty: no particles
   const std::uint32_t* order = nullptr;  // of loose particles: their places in the snapshot
   std::uint64_t order_count = 0;
-  std::shared_ptr<const void> owner;  // of all memory
+  std::optional<LooseParticles> particles;  // unset: they stay in the snapshot; else no `order`
+  std::shared_ptr<const void> owner;        // of all memory
 
   std::uint64_t node_count() const;
 };
@@ -76,12 +85,15 @@ class TreeOfComponent {
  public:
   struct Part {
     std::shared_ptr<const TreeOfType> tree;
-    std::uint64_t first = 0;         // particle of the component
-    int color = -1, intensity = -1;  // among the tree's fields; -1: none is used
+    std::uint64_t first = 0;           // particle of the component
+    int color = -1, intensity = -1;    // among the tree's fields; -1: none is used
+    std::uint64_t first_in_order = 0;  // loose particle of in_order
   };
   std::vector<Part> parts;
   // Particles are drawn at the image nearest to a center; 0: they are where the file has them.
   Vec3 period = {{0, 0, 0}}, center = {{0, 0, 0}};
+  // Loose particles of all parts; none: they are taken from among the component's.
+  Particles in_order;
 };
 
 }  // namespace splotchcl

@@ -290,6 +290,11 @@ class Cutter {
     const TreeLevel& level = tree.levels[level_number];
     const std::uint64_t count = level.loose[node], first = level.first_loose_particle(node);
     if (count > tree.order_count || first > tree.order_count - count) refuse_damaged();
+    if (part.of_component->in_order.count > 0) {
+      for (std::uint64_t loose = first; loose < first + count; ++loose)
+        nodes.set_particle(to++, part.part->first_in_order + loose);
+      return;
+    }
     for (std::uint64_t loose = first; loose < first + count; ++loose) {
       const std::uint64_t place = tree.order[loose];
       if (place >= tree.count) refuse_damaged();

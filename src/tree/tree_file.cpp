@@ -15,6 +15,7 @@
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/hash.h"
+#include "scene/particle_columns.h"
 #include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
@@ -25,10 +26,11 @@ namespace {
 // type its sections, each from a multiple of 64 bytes on; last the checksums of chunks of all that
 // comes before, and theirs.
 constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
-                           'l', ' ', 't', ' ', '2', '\n', 0,   0};
-// Of trees without nodes of the rest, which are made anew.
-constexpr FileMark older_mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
-                                 'l', ' ', 't', ' ', '1', '\n', 0,   0};
+                           'l', ' ', 't', ' ', '3', '\n', 0,   0};
+// Of trees without nodes of the rest, and without a place for particles, which are made anew.
+constexpr FileMark older_marks[] = {
+    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '1', '\n', 0, 0},
+    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '2', '\n', 0, 0}};
 constexpr std::uint64_t alignment = 64, chunk_bytes = 1U << 20,
                         most_checked_bytes = std::uint64_t{1} << 30;
 constexpr std::size_t name_bytes = 64;
@@ -37,14 +39,23 @@ struct FileHeader {
   FileMark mark;
   std::uint64_t key, types, bytes;  // of all but the checksums
 };
+// What a tree has of its loose particles.
+enum class Loose : std::uint64_t {
+  in_snapshot,  // their order alone
+  without_weights,
+  of_one_weight,
+  with_weights
+};
 struct TypeHeader {
   std::int64_t type;
   std::uint64_t count, bad, weight, fields, levels, order_count;
+  Loose loose;
+  double weight_of_all;
   double origin[3], side;
   std::uint64_t nodes[TreeOfType::levels_at_most];
   char names[most_fields][name_bytes];
 };
-static_assert(sizeof(FileHeader) == 40 && sizeof(TypeHeader) == 520);
+static_assert(sizeof(FileHeader) == 40 && sizeof(TypeHeader) == 536);
 
 std::uint64_t key_of(const SnapshotInfo& info) {
   WordHash hash = hash_of_files(info);
@@ -69,7 +80,23 @@ std::array<std::uint64_t, 6> section_bytes(std::uint64_t nodes, std::uint64_t fi
           groups * sizeof(std::uint64_t), groups * sizeof(std::uint64_t)};
 }
 
-TypeHeader header_of(const TreeOfType& tree) {
+// The order, or the columns of particles in it.
+std::vector<std::uint64_t> loose_bytes(const TypeHeader& header) {
+  const std::uint64_t column = header.order_count * sizeof(float);
+  static_assert(sizeof(float) == sizeof(std::uint32_t));
+  if (header.loose == Loose::in_snapshot) return {column};
+  std::vector<std::uint64_t> sections = {3 * column, column};
+  if (header.loose == Loose::with_weights) sections.push_back(column);
+  sections.insert(sections.end(), header.fields, column);
+  return sections;
+}
+
+Loose loose_of(const TreeSource& source) {
+  if (source.weights.is_absent()) return Loose::without_weights;
+  return source.weights.is_uniform() ? Loose::of_one_weight : Loose::with_weights;
+}
+
+TypeHeader header_of(const TreeOfType& tree, const TreeSource* particles) {
   TypeHeader header{};
   header.type = tree.type;
   header.count = tree.count;
@@ -78,6 +105,10 @@ TypeHeader header_of(const TreeOfType& tree) {
   header.fields = tree.fields.size();
   header.levels = tree.levels.size();
   header.order_count = tree.order_count;
+  if (particles != nullptr) {
+    header.loose = loose_of(*particles);
+    header.weight_of_all = static_cast<double>(particles->weights.uniform_value());
+  }
   for (std::size_t axis = 0; axis < 3; ++axis)
     header.origin[axis] = tree.origin.a[axis];
   header.side = tree.side;
@@ -136,12 +167,39 @@ std::uint64_t file_bytes(const std::vector<TypeHeader>& headers) {
       for (const std::uint64_t section : section_bytes(header.nodes[l], header.fields))
         bytes += padded(section);
     }
-    bytes += padded(header.order_count * sizeof(std::uint32_t));
+    for (const std::uint64_t section : loose_bytes(header))
+      bytes += padded(section);
   }
   return bytes;
 }
 
-void write_sections(const TreeOfType& tree, CheckedWriter& writer) {
+// Values of the tree's loose particles, in its order.
+void write_column(const Column& column, std::size_t width, const TreeOfType& tree,
+                  CheckedWriter& writer) {
+  constexpr std::uint64_t at_once = std::uint64_t{1} << 22;
+  const auto on_all_cores = [](std::size_t count, std::size_t block, const auto& work) {
+    for_blocks(count, block, work);
+  };
+  for (std::uint64_t first = 0; first < tree.order_count; first += at_once) {
+    const std::uint64_t last = std::min(tree.order_count, first + at_once);
+    const std::vector<std::uint64_t> places(tree.order + first, tree.order + last);
+    Column values = picked_column(column, width, places, on_all_cores);
+    if (!values.is_array())
+      values = Column::owning(std::vector<float>(width * places.size(), values[0]));
+    writer.write(values.data(), values.size() * sizeof(float));
+  }
+  writer.pad();
+}
+
+void write_particles(const TreeSource& source, const TreeOfType& tree, CheckedWriter& writer) {
+  write_column(source.position, 3, tree, writer);
+  write_column(source.smoothing_length, 1, tree, writer);
+  if (loose_of(source) == Loose::with_weights) write_column(source.weights, 1, tree, writer);
+  for (const TreeSource::Field& field : source.fields)
+    write_column(field.values, 1, tree, writer);
+}
+
+void write_sections(const TreeOfType& tree, const TreeSource* particles, CheckedWriter& writer) {
   for (const TreeLevel& level : tree.levels) {
     const void* const sections[] = {level.nodes, level.fields,         level.children,
                                     level.loose, level.first_children, level.first_loose};
@@ -150,6 +208,10 @@ void write_sections(const TreeOfType& tree, CheckedWriter& writer) {
       writer.write(sections[s], bytes[s]);
       writer.pad();
     }
+  }
+  if (particles != nullptr) {
+    write_particles(*particles, tree, writer);
+    return;
   }
   writer.write(tree.order, tree.order_count * sizeof(std::uint32_t));
   writer.pad();
@@ -179,7 +241,8 @@ bool is_undamaged(const MappedFile& file, std::uint64_t bytes) {
 
 bool is_possible(const TypeHeader& header) {
   return header.fields <= most_fields && header.levels <= TreeOfType::levels_at_most &&
-         header.weight <= 2 && header.count >= header.bad && header.order_count <= header.count &&
+         header.weight <= 2 && header.loose <= Loose::with_weights && header.count >= header.bad &&
+         header.order_count <= header.count &&
          std::all_of(std::begin(header.nodes), std::end(header.nodes),
                      [&](std::uint64_t nodes) { return nodes <= header.count; });
 }
@@ -201,6 +264,24 @@ class Sections {
   std::shared_ptr<const MappedFile> file_;
   std::uint64_t next_;
 };
+
+LooseParticles particles_of(const TypeHeader& header, Sections& sections) {
+  const auto count = static_cast<std::size_t>(header.order_count);
+  const auto column = [&](std::size_t width) {
+    const float* values = nullptr;
+    sections.take(width * count * sizeof(float), values);
+    return Column(sections.file(), values, width * count);
+  };
+  LooseParticles particles;
+  particles.position = column(3);
+  particles.smoothing_length = column(1);
+  if (header.loose == Loose::with_weights) particles.weight = column(1);
+  if (header.loose == Loose::of_one_weight)
+    particles.weight = Column::uniform(static_cast<float>(header.weight_of_all));
+  for (std::size_t f = 0; f < header.fields; ++f)
+    particles.fields.push_back(column(1));
+  return particles;
+}
 
 std::shared_ptr<const TreeOfType> tree_of(const TypeHeader& header, Sections& sections) {
   auto tree = std::make_shared<TreeOfType>();
@@ -225,7 +306,11 @@ std::shared_ptr<const TreeOfType> tree_of(const TypeHeader& header, Sections& se
     sections.take(bytes[5], level.first_loose);
     tree->levels.push_back(level);
   }
-  sections.take(header.order_count * sizeof(std::uint32_t), tree->order);
+  if (header.loose == Loose::in_snapshot) {
+    sections.take(header.order_count * sizeof(std::uint32_t), tree->order);
+  } else {
+    tree->particles = particles_of(header, sections);
+  }
   tree->order_count = header.order_count;
   tree->owner = sections.file();
   return tree;
@@ -253,9 +338,11 @@ bool tree_is_there(const SnapshotInfo& info) {
   return tree_is_of_use(info) && is_regular(tree_path(info));
 }
 
-void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees) {
+void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees,
+                 const std::vector<TreeSource>& particles) {
   const std::filesystem::path path = tree_path(info);
-  if (is_another_file(path, mark) && is_another_file(path, older_mark)) {
+  const auto is_another = [&path](const FileMark& known) { return is_another_file(path, known); };
+  if (is_another(mark) && std::all_of(std::begin(older_marks), std::end(older_marks), is_another)) {
     throw UsageError(fmt::format(
         "{}: found a file that is no tree, expected none or a tree; move it", path.string()));
   }
@@ -264,9 +351,12 @@ void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees)
                     ": was written anew while its tree was made; make it again when the snapshot "
                     "is complete");
   }
+  const auto particles_of = [&particles](std::size_t t) {
+    return particles.empty() ? nullptr : &particles.at(t);
+  };
   std::vector<TypeHeader> headers;
-  for (const TreeOfType& tree : trees)
-    headers.push_back(header_of(tree));
+  for (std::size_t t = 0; t < trees.size(); ++t)
+    headers.push_back(header_of(trees[t], particles_of(t)));
   const FileHeader header = {mark, key_of(info), headers.size(), file_bytes(headers)};
   check_output_path(path);
   UnfinishedFile file(path);
@@ -274,8 +364,8 @@ void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees)
   writer.write(&header, sizeof header);
   writer.write(headers.data(), headers.size() * sizeof(TypeHeader));
   writer.pad();
-  for (const TreeOfType& tree : trees)
-    write_sections(tree, writer);
+  for (std::size_t t = 0; t < trees.size(); ++t)
+    write_sections(trees[t], particles_of(t), writer);
   writer.finish();
   file.finish();
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "splotchcl/snapshot.h"
+#include "tree/build_tree.h"
 #include "tree/particle_tree.h"
 
 namespace splotchcl {
@@ -21,8 +22,11 @@ bool tree_is_of_use(const SnapshotInfo& info);
 bool tree_is_there(const SnapshotInfo& info);
 
 // Throws DataError when the file cannot be written or the snapshot was written anew since it was
-// opened, UsageError when another file is in its place.
-void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees);
+// opened, UsageError when another file is in its place. `particles`, where there are some, are what
+// each tree was made of: then values of loose ones lie in it, in its order, so that what is next to
+// each other is read together.
+void write_trees(const SnapshotInfo& info, const std::vector<TreeOfType>& trees,
+                 const std::vector<TreeSource>& particles = {});
 
 using Trees = std::vector<std::shared_ptr<const TreeOfType>>;
 // Mapped, so that only what is looked at is read; the checksums of files up to a gigabyte are

@@ -41,17 +41,12 @@ TEST(PeriodicWrap, FindsTheNearestOfAllImages) {
     x = anywhere(random);
   const Vec3 origin = {{3, -4, 0.5}};
   for (const Vec3& center : {Vec3{{0, 0, 0}}, Vec3{{49.5, 20, 30.25}}, Vec3{{-20, 70, 25}}}) {
-    Particles particles;
-    particles.count = 5000;
-    particles.origin = origin;
-    particles.position = Column::owning(position);
-    wrap_around(center, box, particles);
+    const Column wrapped = wrapped_positions(Vec3(origin - center), box, Column::owning(position));
     for (std::size_t i = 0; i < 5000; ++i) {
       std::array<double, 3> before, after;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         before[axis] = origin.a[axis] + static_cast<double>(position[3 * i + axis]);
-        after[axis] =
-            particles.origin.a[axis] + static_cast<double>(particles.position[3 * i + axis]);
+        after[axis] = center.a[axis] + static_cast<double>(wrapped[3 * i + axis]);
       }
       const std::array<double, 3> expected = nearest_image(before, center, box);
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -61,13 +56,11 @@ TEST(PeriodicWrap, FindsTheNearestOfAllImages) {
 }
 
 TEST(PeriodicWrap, LeavesWhatIsNoNumber) {
-  Particles particles;
-  particles.count = 1;
-  particles.position = Column::owning({std::numeric_limits<float>::quiet_NaN(), 1, 49});
-  wrap_around({{0, 0, 0}}, 50, particles);
-  EXPECT_TRUE(std::isnan(particles.position[0]));
-  EXPECT_EQ(particles.position[1], 1.0F);
-  EXPECT_EQ(particles.position[2], -1.0F);
+  const Column position = Column::owning({std::numeric_limits<float>::quiet_NaN(), 1, 49});
+  const Column wrapped = wrapped_positions({{0, 0, 0}}, 50, position);
+  EXPECT_TRUE(std::isnan(wrapped[0]));
+  EXPECT_EQ(wrapped[1], 1.0F);
+  EXPECT_EQ(wrapped[2], -1.0F);
 }
 
 // Two clouds on either side of the box's face, seen from close to it.
@@ -151,6 +144,15 @@ TEST(RoundedPositions, MayBeATenthOfTheSizeThatIsDrawn) {
   DrawnComponent smaller = component({1.5e6F}, 1.25F, 3e7);
   smaller.size_factor = 0.9;
   EXPECT_TRUE(note_on(smaller));
+}
+
+TEST(RoundedPositions, MayBeThereOnlyWhereTheFarthestAndTheSmallestTogetherWouldBe) {
+  const DrawnComponent far = component({1, 1.5e6F}, 1.25F, 3e7);
+  const PlaceExtremes extremes = find_extremes(far.particles, ParticlePass(far.particles.count));
+  EXPECT_EQ(extremes.largest_offset, 1.5e6F);
+  EXPECT_EQ(extremes.smallest_length, 1.25F);
+  EXPECT_FALSE(may_be_rounded(extremes, 1));
+  EXPECT_TRUE(may_be_rounded(extremes, 0.9));
 }
 
 TEST(RoundedPositions, OfFilesOfFloatsAreAsTheFileHasThem) {

@@ -14,7 +14,8 @@ class TreeFile : public ::testing::Test {
  protected:
   TreeFile() {
     const Matter matter = clumps(5000, 11);
-    tree_ = build_tree(source_of(matter), {});
+    source_ = source_of(matter);
+    tree_ = build_tree(source_, {});
     TestSnapshot content;
     content.counts[0] = 5000;
     content.total_counts[0] = 5000;
@@ -40,6 +41,7 @@ class TreeFile : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
+  TreeSource source_;
   TreeOfType tree_;
 };
 
@@ -59,6 +61,35 @@ TEST_F(TreeFile, HoldsWhatWasWritten) {
   EXPECT_EQ(read.order[tree_.order_count - 1], tree_.order[tree_.order_count - 1]);
 }
 
+TEST_F(TreeFile, HoldsParticlesInItsOrder) {
+  write_trees(info(), {tree_}, {source_});
+  const auto trees = read_trees(info());
+  ASSERT_TRUE(trees);
+  const TreeOfType& read = *trees->front();
+  ASSERT_TRUE(read.particles);
+  EXPECT_EQ(read.order, nullptr);
+  ASSERT_EQ(read.order_count, tree_.order_count);
+  const LooseParticles& particles = *read.particles;
+  ASSERT_EQ(particles.fields.size(), 1U);
+  for (std::uint64_t i = 0; i < read.order_count; ++i) {
+    const std::uint32_t place = tree_.order[i];
+    ASSERT_EQ(particles.position[3 * i + 2], source_.position[3 * place + 2]);
+    ASSERT_EQ(particles.smoothing_length[i], source_.smoothing_length[place]);
+    ASSERT_EQ(particles.weight[i], source_.weights[place]);
+    ASSERT_EQ(particles.fields[0][i], source_.fields[0].values[place]);
+  }
+}
+
+TEST_F(TreeFile, HoldsOneWeightForAllOnce) {
+  source_.weights = Column::uniform(2.5F);
+  write_trees(info(), {tree_}, {source_});
+  const auto trees = read_trees(info());
+  ASSERT_TRUE(trees);
+  const Column& weight = trees->front()->particles->weight;
+  ASSERT_TRUE(weight.is_uniform());
+  EXPECT_EQ(weight.uniform_value(), 2.5F);
+}
+
 TEST_F(TreeFile, IsNotReadOnceTheSnapshotHasChanged) {
   write_trees(info(), {tree_});
   const std::filesystem::path snapshot = folder_ / "clumps";
@@ -69,7 +100,7 @@ TEST_F(TreeFile, IsNotReadOnceTheSnapshotHasChanged) {
 }
 
 TEST_F(TreeFile, IsNotReadWhereAByteIsDamagedOrTheEndIsMissing) {
-  write_trees(info(), {tree_});
+  write_trees(info(), {tree_}, {source_});
   const std::string whole = bytes();
   for (std::size_t at = 0; at < whole.size(); at += 1 + whole.size() / 97) {
     std::string damaged = whole;

@@ -9,6 +9,7 @@
 #include "device/frame/shared.h"
 #include "device/frame/variant.h"
 #include "device/opencl/launch.h"
+#include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "scene/memory_advice.h"
 #include "scene/particle_columns.h"
@@ -228,10 +229,13 @@ compute::buffer ParticleStore::buffer_of(const Column& column, std::size_t value
 compute::buffer ParticleStore::streamed_buffer(const ColumnSource& source,
                                                std::size_t values_per_particle,
                                                const Piece& piece) {
-  std::vector<float> values((piece.end - piece.first) * values_per_particle);
+  const std::size_t width = values_per_particle;
+  std::vector<float> values((piece.end - piece.first) * width);
   for (const Piece& seen : seen_) {
-    source.make(seen.first * values_per_particle, seen.end * values_per_particle,
-                values.data() + (seen.first - piece.first) * values_per_particle);
+    for_blocks(seen.end - seen.first, streamed_particles, [&](std::size_t first, std::size_t last) {
+      source.make((seen.first + first) * width, (seen.first + last) * width,
+                  values.data() + (seen.first + first - piece.first) * width);
+    });
   }
   streamed_.push_back(device_.pool.upload(values, "chunk of a column"));
   return streamed_.back().memory();
