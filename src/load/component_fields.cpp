@@ -13,6 +13,7 @@
 #include "load/component_tree.h"
 #include "load/passes.h"
 #include "parallel/available_memory.h"
+#include "parallel/for_blocks.h"
 #include "ranks/spread_particles.h"
 #include "scene/particle_columns.h"
 #include "snapshot/field_names.h"
@@ -341,16 +342,19 @@ Column ComponentFields::rim_factors(const TypeFields& type) const {
   const Vec3 to_center = snapshot_.position_origin() - *set.sphere_center;
   const Column position = type.positions();
   std::vector<float> factors(type.count());
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    double offset[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      offset[axis] = to_center.a[axis] + static_cast<double>(position[3 * i + axis]);
-      if (periodic_box_) offset[axis] = nearest_image(offset[axis], (*periodic_box_)[axis]);
+  for_blocks(factors.size(), streamed_particles, [&](std::size_t first, std::size_t last) {
+    const ColumnStretch stretch(position, 3 * first, 3 * last);
+    for (std::size_t i = first; i < last; ++i) {
+      double offset[3];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        offset[axis] = to_center.a[axis] + static_cast<double>(stretch[3 * i + axis]);
+        if (periodic_box_) offset[axis] = nearest_image(offset[axis], (*periodic_box_)[axis]);
+      }
+      const double inwards = *set.sphere_radius - std::hypot(offset[0], offset[1], offset[2]);
+      const double part = std::clamp(inwards / *set.sphere_rim, 0.0, 1.0);
+      factors[i] = static_cast<float>(part * part * (3 - 2 * part));
     }
-    const double inwards = *set.sphere_radius - std::hypot(offset[0], offset[1], offset[2]);
-    const double part = std::clamp(inwards / *set.sphere_rim, 0.0, 1.0);
-    factors[i] = static_cast<float>(part * part * (3 - 2 * part));
-  }
+  });
   return Column::owning(std::move(factors));
 }
 

@@ -75,12 +75,15 @@ std::uint64_t SmoothingLengthCache::key_of(const Column& position,
   for (std::size_t axis = 0; axis < 3; ++axis)
     hash.add(periodic_box ? (*periodic_box)[axis] : 0);
   hash.add(std::uint64_t{position.size() / 3});
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    std::uint32_t bits = 0;
-    const float coordinate = position[i];
-    std::memcpy(&bits, &coordinate, sizeof bits);
-    hash.add(std::uint64_t{bits});
-  }
+  for_stretches(position.size(), [&](std::size_t begin, std::size_t end) {
+    const ColumnStretch stretch(position, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      std::uint32_t bits = 0;
+      const float coordinate = stretch[i];
+      std::memcpy(&bits, &coordinate, sizeof bits);
+      hash.add(std::uint64_t{bits});
+    }
+  });
   return hash.value();
 }
 

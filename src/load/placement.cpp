@@ -203,25 +203,30 @@ constexpr double rounding = 1e-6;
 PositionExtent look_at_positions(const Snapshot& snapshot, int type, std::size_t stride) {
   const Column position = snapshot.read(type, "position");
   const Vec3 origin = snapshot.position_origin();
+  const auto take = [](PositionExtent& extent, const float x, const float y, const float z) {
+    const double place[] = {x, y, z};
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent.lowest.a[axis] = std::min(extent.lowest.a[axis], place[axis]);
+      extent.highest.a[axis] = std::max(extent.highest.a[axis], place[axis]);
+    }
+    ++extent.particles;
+  };
   const auto look = [&](const ParticleRun& run, std::vector<PositionExtent>& found) {
     PositionExtent extent;
-    const auto take = [&](const float x, const float y, const float z) {
-      const double place[] = {x, y, z};
-      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        extent.lowest.a[axis] = std::min(extent.lowest.a[axis], place[axis]);
-        extent.highest.a[axis] = std::max(extent.highest.a[axis], place[axis]);
-      }
-      ++extent.particles;
-    };
     if (stride > 1) {
       for (std::size_t i = first_sampled(run, stride); i < run.end; i += stride)
-        take(position[3 * i], position[3 * i + 1], position[3 * i + 2]);
+        take(extent, position[3 * i], position[3 * i + 1], position[3 * i + 2]);
     } else {
-      for_stretches(run, [&](std::size_t begin, std::size_t end) {
+      std::mutex of_extent;
+      for_blocks(run.end - run.begin, streamed_particles, [&](std::size_t first, std::size_t last) {
+        const std::size_t begin = run.begin + first, end = run.begin + last;
         const ColumnStretch stretch(position, 3 * begin, 3 * end);
+        PositionExtent some;
         for (std::size_t i = begin; i < end; ++i)
-          take(stretch[3 * i], stretch[3 * i + 1], stretch[3 * i + 2]);
+          take(some, stretch[3 * i], stretch[3 * i + 1], stretch[3 * i + 2]);
+        const std::lock_guard lock(of_extent);
+        extent.take(some);
       });
     }
     found.push_back(extent);

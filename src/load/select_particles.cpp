@@ -92,18 +92,26 @@ class Membership {
     }
   }
 
-  void keep_where(const std::string& text, const std::string& key) {
+  // look(first, last, holds) for blocks of particles, on all cores.
+  template <class Look>
+  void keep_blocks(Look&& look) {
     constexpr std::size_t block = std::size_t{1} << 16;
-    const Formula condition = condition_on(fields_, text, key);
-    const auto values = formula_values(fields_, condition, key);
     std::vector<char> holds(is_member_.size());
     for_blocks(holds.size(), block, [&](std::size_t first, std::size_t last) {
-      std::vector<double> found(last - first);
-      values->evaluate(run_.begin + first, run_.begin + last, found.data());
-      std::transform(found.begin(), found.end(), holds.begin() + static_cast<std::ptrdiff_t>(first),
-                     [](double value) { return static_cast<char>(value != 0); });
+      look(run_.begin + first, run_.begin + last, holds.data() + first);
     });
     keep_if([&](std::size_t i) { return holds[i - run_.begin] != 0; });
+  }
+
+  void keep_where(const std::string& text, const std::string& key) {
+    const Formula condition = condition_on(fields_, text, key);
+    const auto values = formula_values(fields_, condition, key);
+    keep_blocks([&](std::size_t first, std::size_t last, char* holds) {
+      std::vector<double> found(last - first);
+      values->evaluate(first, last, found.data());
+      std::transform(found.begin(), found.end(), holds,
+                     [](double value) { return static_cast<char>(value != 0); });
+    });
   }
 
   void keep_box(const Vec3& minimum, const Vec3& maximum) {
@@ -131,11 +139,14 @@ class Membership {
   void keep_places(Holds&& holds) {
     const Column position = fields_.positions();
     const Vec3 origin = snapshot_.position_origin();
-    keep_if([&](std::size_t i) {
-      const Vec3 offset = {{static_cast<double>(position[3 * i]),
-                            static_cast<double>(position[3 * i + 1]),
-                            static_cast<double>(position[3 * i + 2])}};
-      return holds(Vec3(origin + offset));
+    keep_blocks([&](std::size_t first, std::size_t last, char* kept) {
+      const ColumnStretch stretch(position, 3 * first, 3 * last);
+      for (std::size_t i = first; i < last; ++i) {
+        const Vec3 offset = {{static_cast<double>(stretch[3 * i]),
+                              static_cast<double>(stretch[3 * i + 1]),
+                              static_cast<double>(stretch[3 * i + 2])}};
+        *kept++ = static_cast<char>(holds(Vec3(origin + offset)));
+      }
     });
   }
 

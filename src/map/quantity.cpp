@@ -10,7 +10,9 @@
 
 #include "map/map_units.h"
 #include "map/shape.h"
+#include "parallel/for_blocks.h"
 #include "scene/constants.h"
+#include "scene/particle_columns.h"
 #include "splotchcl/error.h"
 #include "splotchcl/periodic.h"
 
@@ -101,17 +103,21 @@ Column velocities_from_center(const MapGeometry& geometry, const ComponentFields
   const Column velocity = fields.vectors("velocity", key), position = fields.positions();
   const Vec3 origin = fields.origin();
   std::vector<float> values(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    double along = 0, square = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      double offset =
-          static_cast<double>(position[3 * i + axis]) + origin.a[axis] - geometry.center.a[axis];
-      if (geometry.box) offset = nearest_image(offset, (*geometry.box)[axis]);
-      along += offset * static_cast<double>(velocity[3 * i + axis]);
-      square += offset * offset;
+  for_blocks(count, streamed_particles, [&](std::size_t first, std::size_t last) {
+    const ColumnStretch places(position, 3 * first, 3 * last);
+    const ColumnStretch velocities(velocity, 3 * first, 3 * last);
+    for (std::size_t i = first; i < last; ++i) {
+      double along = 0, square = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        double offset =
+            static_cast<double>(places[3 * i + axis]) + origin.a[axis] - geometry.center.a[axis];
+        if (geometry.box) offset = nearest_image(offset, (*geometry.box)[axis]);
+        along += offset * static_cast<double>(velocities[3 * i + axis]);
+        square += offset * offset;
+      }
+      values[i] = static_cast<float>(square > 0 ? along / std::sqrt(square) : 0);
     }
-    values[i] = static_cast<float>(square > 0 ? along / std::sqrt(square) : 0);
-  }
+  });
   return Column::owning(std::move(values));
 }
 

@@ -71,6 +71,13 @@ int frame_bits(const std::filesystem::path& film, const MovieSettings& movie) {
   return film_bits(film, movie) == 10 ? 16 : 8;
 }
 
+// What is followed is looked for among all particles: what needs no scene is refused before.
+void check_before_reading(const FilmOptions& options) {
+  check_choice(options.frames, options.part);
+  if (options.ranks && options.ranks->rank() > 0) return;
+  FrameFiles(options.output, {""}).check();
+}
+
 // One film that is being made.
 class Film {
  public:
@@ -368,7 +375,10 @@ class Film {
 
 FilmResult make_film(const FilmOptions& options, const FilmReport& report) {
   std::optional<Film> film;
-  agree(options.ranks.get(), [&] { film.emplace(options, report); });
+  agree(options.ranks.get(), [&] {
+    check_before_reading(options);
+    film.emplace(options, report);
+  });
   return film->make();
 }
 

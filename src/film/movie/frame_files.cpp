@@ -64,15 +64,30 @@ int part_of_range(const std::string& text, const std::string& part, int absent) 
   return *number;
 }
 
-}  // namespace
+struct FrameRange {
+  int first, end, step;
+};
 
-std::vector<int> select_frames(const std::string& text, int frame_count) {
+FrameRange range_of(const std::string& text, int frame_count) {
   const std::vector<std::string> parts = split(text.empty() ? ":" : text, ':');
   if (parts.size() > 3 || (parts.size() == 1 && parts[0].empty())) refuse_range(text);
-  const int first = part_of_range(text, parts[0], 0);
-  const int end = parts.size() == 1 ? first + 1 : part_of_range(text, parts[1], frame_count);
-  const int step = parts.size() < 3 ? 1 : part_of_range(text, parts[2], 1);
-  if (step == 0) refuse_range(text);
+  FrameRange range{};
+  range.first = part_of_range(text, parts[0], 0);
+  range.end = parts.size() == 1 ? range.first + 1 : part_of_range(text, parts[1], frame_count);
+  range.step = parts.size() < 3 ? 1 : part_of_range(text, parts[2], 1);
+  if (range.step == 0) refuse_range(text);
+  return range;
+}
+
+}  // namespace
+
+void check_choice(const std::string& frames, const std::string& part) {
+  range_of(frames, 0);
+  select_part(part, {});
+}
+
+std::vector<int> select_frames(const std::string& text, int frame_count) {
+  const auto [first, end, step] = range_of(text, frame_count);
   if (first >= end || end > frame_count) {
     throw UsageError(
         fmt::format("--frames: found {}, expected frames from 0 to {}, of which the "

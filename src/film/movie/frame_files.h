@@ -17,6 +17,9 @@ std::vector<int> select_frames(const std::string& text, int frame_count);
 // being all of them. Nothing is all. Throws UsageError.
 std::vector<int> select_part(const std::string& text, const std::vector<int>& frames);
 
+// Throws UsageError where these say no such thing, whatever the film.
+void check_choice(const std::string& frames, const std::string& part);
+
 // Files whose names differ by a number, which a pattern such as turn_%04d.png has a place for:
 // exactly one %d, or with a width as printf knows it, %4d or %04d, in the file's name.
 class NumberedFiles {
