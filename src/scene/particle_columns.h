@@ -111,6 +111,8 @@ class ColumnStretch {
 
   // `i` counts from the column's first value, as in Column.
   float operator[](std::size_t i) const { return values_ == nullptr ? same_ : values_[i - begin_]; }
+  // From `begin` on; null where all are the same.
+  const float* values() const { return values_; }
 
  private:
   std::size_t begin_;

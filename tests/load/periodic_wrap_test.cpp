@@ -55,6 +55,33 @@ TEST(PeriodicWrap, FindsTheNearestOfAllImages) {
   }
 }
 
+// Wherever a stretch of a streamed column begins.
+TEST(PeriodicWrap, FindsTheSameImagesManyAtOnceAsOneByOne) {
+  const BoxSides box(Vec3{{1, 3, 1e-3}});
+  const Vec3 shift = {{0.25, -7, 1e5}};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> exponent(-20, 40);
+  std::vector<float> position(3 * 700);
+  for (float& x : position)
+    x = std::exp2(exponent(random)) * (exponent(random) < 20 ? -1.0F : 1.0F);
+  position[30] = 0.25F;   // half a side away
+  position[33] = -0.75F;  // likewise
+  position[37] = std::numeric_limits<float>::infinity();
+  const Column stored = Column::owning(position);
+  const Column wrapped = wrapped_positions(shift, box, stored, true);
+  for (const std::size_t begin : {0U, 1U, 2U, 5U, 12U, 31U}) {
+    std::vector<float> values(position.size() - begin - begin % 7);
+    wrapped.source()->make(begin, begin + values.size(), values.data());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t axis = (begin + i) % 3;
+      const double distance = static_cast<double>(position[begin + i]) + shift.a[axis];
+      const auto expected = static_cast<float>(splotchcl::nearest_image(distance, box[axis]));
+      ASSERT_TRUE(values[i] == expected || (std::isnan(values[i]) && std::isnan(expected)))
+          << "value " << begin + i << " at " << position[begin + i];
+    }
+  }
+}
+
 TEST(PeriodicWrap, LeavesWhatIsNoNumber) {
   const Column position = Column::owning({std::numeric_limits<float>::quiet_NaN(), 1, 49});
   const Column wrapped = wrapped_positions({{0, 0, 0}}, 50, position);
