@@ -44,7 +44,7 @@ class TreeBuilder {
     TreeOfType tree;
     if (extent.good > 0) {
       cube_ = cube_around(extent);
-      cell_counts_ = count_cells(source_, cube_, cell_level);
+      counts_ = count_cells(source_, cube_, cell_level);
       build_cells(extent.good);
       build_top();
     }
@@ -68,20 +68,20 @@ class TreeBuilder {
     for (std::size_t first = 0; first < cells;) {
       std::size_t last = first;
       std::uint64_t held = 0;
-      while (last < cells && (held == 0 || held + cell_counts_[last] <= most))
-        held += cell_counts_[last++];
-      if (held > 0) build_some_cells(first, last, held);
+      while (last < cells && (held == 0 || held + counts_.particles[last] <= most))
+        held += counts_.particles[last++];
+      if (held > 0) build_some_cells(first, last);
       first = last;
       done += held;
       if (progress_) progress_(static_cast<double>(done) / static_cast<double>(good));
     }
   }
 
-  void build_some_cells(std::size_t first, std::size_t last, std::uint64_t count) {
-    const HeldParticles held = hold(source_, cube_, cell_level, first, last, count);
+  void build_some_cells(std::size_t first, std::size_t last) {
+    const HeldParticles held = hold(source_, cube_, cell_level, counts_, first, last);
     std::vector<std::size_t> begins(last - first + 1, 0);
     for (std::size_t cell = first; cell < last; ++cell)
-      begins[cell - first + 1] = begins[cell - first] + cell_counts_[cell];
+      begins[cell - first + 1] = begins[cell - first] + counts_.particles[cell];
     std::vector<Subtree> subtrees(last - first);
     for_blocks(last - first, 1, [&](std::size_t from, std::size_t to) {
       for (std::size_t s = from; s < to; ++s) {
@@ -307,7 +307,7 @@ class TreeBuilder {
   const TreeOptions& options_;
   const std::function<void(double)>& progress_;
   TreeCube cube_;
-  std::vector<std::uint64_t> cell_counts_;
+  CellCounts counts_;
   std::vector<Branch> branches_;  // of all cells
   LevelsOfTree levels_;
 };

@@ -20,12 +20,22 @@ struct HeldParticles {
   std::vector<float> values;  // of all fields
 };
 
-// Particles in each cell of a level.
-std::vector<std::uint64_t> count_cells(const TreeSource& source, const TreeCube& cube, int level);
+// Which cells of a level particles lie in.
+struct CellCounts {
+  std::vector<std::uint64_t> particles;  // of each cell
+  // The cells that particles of a stretch of the source lie in: from the first to behind the last.
+  // In snapshots whose order is that of space they are few.
+  struct Range {
+    std::size_t first = 0, end = 0;
+    bool meets(std::size_t from, std::size_t to) const { return first < to && from < end; }
+  };
+  std::vector<Range> of_stretches;
+};
+CellCounts count_cells(const TreeSource& source, const TreeCube& cube, int level);
 
-// The particles of a level's cells [first, last), `count` of them, in the order of the snapshot
-// however many threads look.
-HeldParticles hold(const TreeSource& source, const TreeCube& cube, int level, std::size_t first,
-                   std::size_t last, std::uint64_t count);
+// The particles of a level's cells [first, last) in the order of the snapshot, however many threads
+// look. Stretches without any are not read.
+HeldParticles hold(const TreeSource& source, const TreeCube& cube, int level,
+                   const CellCounts& counts, std::size_t first, std::size_t last);
 
 }  // namespace splotchcl

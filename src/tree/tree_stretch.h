@@ -72,17 +72,28 @@ class TreeStretch {
   std::vector<std::unique_ptr<ColumnStretch>> fields_;
 };
 
-// Calls look(stretch, begin, end) for all of the source, on all cores.
-template <class Look>
-void for_source(const TreeSource& source, const Look& look) {
+inline std::size_t stretches_of(const TreeSource& source) {
+  return ceil_divide(static_cast<std::size_t>(source.count), streamed_particles);
+}
+
+// Calls look(stretch, begin, end) for those stretches of the source that are wanted, on all cores.
+template <class IsWanted, class Look>
+void for_some_stretches(const TreeSource& source, const IsWanted& is_wanted, const Look& look) {
   const std::size_t count = static_cast<std::size_t>(source.count);
-  for_blocks(ceil_divide(count, streamed_particles), 1, [&](std::size_t first, std::size_t last) {
+  for_blocks(stretches_of(source), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t s = first; s < last; ++s) {
+      if (!is_wanted(s)) continue;
       const std::size_t begin = s * streamed_particles;
       const std::size_t end = std::min(count, begin + streamed_particles);
       look(TreeStretch(source, begin, end), begin, end);
     }
   });
+}
+// For all of them.
+template <class Look>
+void for_source(const TreeSource& source, const Look& look) {
+  for_some_stretches(
+      source, [](std::size_t) { return true; }, look);
 }
 
 }  // namespace splotchcl

@@ -1,5 +1,6 @@
 #include "tree/build_tree.h"
 
+#include "scene/particle_columns.h"
 #include "testing.h"
 #include "tree/sampled_field.h"
 #include "tree/tree_scenes.h"
@@ -72,6 +73,21 @@ TEST(BuildTree, HasTheSameBitsHoweverManyParticlesAreHeld) {
   const Matter matter = clumps(30000, 5);
   const TreeSource source = source_of(matter);
   expect_same(build_tree(source, {4, 1000}), build_tree(source, {4, 0}));
+}
+
+// Three stretches of particles along x, of which most of what is held at once needs one.
+TEST(BuildTree, HasTheSameBitsWhereSomeStretchesAreNotRead) {
+  constexpr std::size_t count = 2 * streamed_particles + 5000;
+  std::mt19937_64 random(12);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  Matter matter;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = (static_cast<double>(i) + uniform(random)) / static_cast<double>(count);
+    matter.add(x, uniform(random), uniform(random), 0.02, 1, 1 + x);
+  }
+  matter.position[0] = 0.999F;  // one that lies in no order
+  const TreeSource source = source_of(matter);
+  expect_same(build_tree(source, {8, 60000}), build_tree(source, {8, 0}));
 }
 
 // A mean over nodes of what a steep palette makes of eight members is that of all members, within
