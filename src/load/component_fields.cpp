@@ -238,19 +238,35 @@ Column ComponentFields::positions() const {
   });
 }
 
-// Wrapped positions serve all frames of a film around the same center.
+namespace {
+
+struct WrappedPositions {
+  Vec3 shift;
+  BoxSides box;
+  Column positions;
+};
+
+}  // namespace
+
+// They serve all frames of a film around the same center. Those around another one go at once:
+// they may be a large part of the memory.
 void ComponentFields::wrap_around(const Vec3& center, Particles& particles) const {
   using namespace boost::qvm;
   if (!periodic_box_) return;
   const Vec3 shift = particles.origin - center;
-  const Vec3& sides = periodic_box_->vector();
-  const std::string key =
-      fmt::format("{}: within {} {} {} around {} {} {}", particles_key(), sides.a[0], sides.a[1],
-                  sides.a[2], center.a[0], center.a[1], center.a[2]);
-  particles.position = snapshot_.memory().get<Column>(key, [&] {
-    return wrapped_positions(shift, *periodic_box_, particles.position,
-                             has_shared_passes(snapshot_));
-  });
+  const std::string key = particles_key() + ": wrapped";
+  const auto wrapped = [&]() -> WrappedPositions {
+    return {
+        shift, *periodic_box_,
+        wrapped_positions(shift, *periodic_box_, particles.position, has_shared_passes(snapshot_))};
+  };
+  LoadMemory& memory = snapshot_.memory();
+  const auto& known = memory.get<WrappedPositions>(key, wrapped);
+  if (known.shift != shift || known.box != *periodic_box_) {
+    memory.set(key, WrappedPositions{shift, *periodic_box_, {}});
+    memory.set(key, wrapped());
+  }
+  particles.position = memory.get<WrappedPositions>(key, wrapped).positions;
   if (particles.boxes) particles.boxes = wrapped_boxes(*particles.boxes, shift, *periodic_box_);
   if (particles.tree) particles.tree = wrapped_tree(*particles.tree, center, *periodic_box_);
   particles.origin = center;

@@ -131,6 +131,26 @@ TEST_F(WrappedFrame, TakesTheBoxThatTheSceneSays) {
   EXPECT_EQ(clouds_in_view(), 1U);
 }
 
+TEST_F(WrappedFrame, HasTheSamePositionsForTheNextFrameOnlyAroundTheSameCenter) {
+  scene.periodic.wrap = true;
+  const auto load = [this] {
+    std::vector<std::string> notes;
+    return load_frame(scene, snapshot, notes).components[0].particles;
+  };
+  const Particles first = load(), second = load();
+  EXPECT_EQ(first.position.data(), second.position.data());
+  scene.camera->look_at.a[0] = 40;
+  const Particles moved = load();
+  EXPECT_EQ(moved.origin.a[0], 40);
+  EXPECT_EQ(moved.position[0], -39);
+  EXPECT_EQ(moved.position[3], -41);  // at -1
+  scene.periodic.box = 60;
+  EXPECT_EQ(load().position[3], -1);
+  scene.camera->look_at.a[0] = 0;
+  scene.periodic.box.reset();
+  EXPECT_EQ(load().position[3], first.position[3]);
+}
+
 TEST(PeriodicBox, ThatNobodySaysIsRefused) {
   MemorySnapshot snapshot;
   EXPECT_THROW(periodic_box({true, {}}, snapshot.info()), UsageError);
