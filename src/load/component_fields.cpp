@@ -50,9 +50,8 @@ Column joined(const std::vector<ColumnOfType>& parts, std::size_t width, bool is
       const std::size_t size = part.count * width;
       const std::size_t from = std::max(begin, first), to = std::min(end, first + size);
       if (from < to) {
-        const ColumnStretch stretch(part.column, from - first, to - first);
-        for (std::size_t i = from; i < to; ++i)
-          *out++ = stretch[i - first];
+        copy_values(part.column, from - first, to - first, out);
+        out += to - from;
       }
       first += size;
     }

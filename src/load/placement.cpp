@@ -188,10 +188,10 @@ inline float image_of(float stored, double shift, double side) {
   return static_cast<float>(distance - side * ((distance / side + rounder) - rounder));
 }
 
-// Of values [begin, end) of a column. Sixteen particles at once in a loop that compilers make
-// vectors of.
-void find_images(const ColumnStretch& stored, std::size_t begin, std::size_t end, const Vec3& shift,
-                 const BoxSides& box, float* out) {
+// In place, of values that are those from `begin` on of a column. Sixteen particles at once in a
+// loop that compilers make vectors of.
+void find_images(std::size_t begin, std::size_t end, const Vec3& shift, const BoxSides& box,
+                 float* values) {
   constexpr std::size_t at_once = 48;
   std::size_t i = begin;
   if (end - begin >= at_once) {
@@ -200,16 +200,14 @@ void find_images(const ColumnStretch& stored, std::size_t begin, std::size_t end
       shifts[j] = shift.a[(begin + j) % 3];
       sides[j] = box[(begin + j) % 3];
     }
-    const float* from = stored.values();
     for (; end - i >= at_once; i += at_once) {
       for (std::size_t j = 0; j < at_once; ++j)
-        out[j] = image_of(from[j], shifts[j], sides[j]);
-      from += at_once;
-      out += at_once;
+        values[j] = image_of(values[j], shifts[j], sides[j]);
+      values += at_once;
     }
   }
-  for (; i < end; ++i)
-    *out++ = image_of(stored[i], shift.a[i % 3], box[i % 3]);
+  for (; i < end; ++i, ++values)
+    *values = image_of(*values, shift.a[i % 3], box[i % 3]);
 }
 
 }  // namespace
@@ -218,7 +216,8 @@ Column wrapped_positions(const Vec3& shift, const BoxSides& box, const Column& p
                          bool streams) {
   if (!position.is_array()) return position;
   const auto wrap = [position, shift, box](std::size_t begin, std::size_t end, float* out) {
-    find_images(ColumnStretch(position, begin, end), begin, end, shift, box, out);
+    copy_values(position, begin, end, out);
+    find_images(begin, end, shift, box, out);
   };
   if (streams || is_streamed(position)) return make_column(position.size(), true, wrap);
   LargeVector<float> wrapped(position.size());

@@ -82,12 +82,22 @@ ColumnStretch::ColumnStretch(const Column& column, std::size_t begin, std::size_
   if (!column.is_array()) {
     same_ = column[0];
   } else if (const auto source = column.source(); source && source->is_streamed()) {
-    made_.resize(end - begin);
-    source->make(begin, end, made_.data());
-    values_ = made_.data();
+    made_.reset(new float[end - begin]);  // not cleared before
+    source->make(begin, end, made_.get());
+    values_ = made_.get();
   } else {
     values_ = column.data() + begin;
   }
+}
+
+void copy_values(const Column& column, std::size_t begin, std::size_t end, float* out) {
+  if (const auto source = column.source(); source && source->is_streamed()) {
+    source->make(begin, end, out);
+    return;
+  }
+  const ColumnStretch stretch(column, begin, end);
+  for (std::size_t i = begin; i < end; ++i)
+    *out++ = stretch[i];
 }
 
 bool is_streamed(const Column& column) {

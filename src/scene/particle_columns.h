@@ -111,15 +111,16 @@ class ColumnStretch {
 
   // `i` counts from the column's first value, as in Column.
   float operator[](std::size_t i) const { return values_ == nullptr ? same_ : values_[i - begin_]; }
-  // From `begin` on; null where all are the same.
-  const float* values() const { return values_; }
 
  private:
   std::size_t begin_;
-  std::vector<float> made_;
+  std::unique_ptr<float[]> made_;
   const float* values_ = nullptr;
   float same_ = 0;
 };
+
+// The same values into memory of one's own. Streamed ones are made there.
+void copy_values(const Column& column, std::size_t begin, std::size_t end, float* out);
 
 // Whether its values are made as they are wanted.
 bool is_streamed(const Column& column);

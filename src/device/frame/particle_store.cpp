@@ -230,14 +230,16 @@ compute::buffer ParticleStore::streamed_buffer(const ColumnSource& source,
                                                std::size_t values_per_particle,
                                                const Piece& piece) {
   const std::size_t width = values_per_particle;
-  std::vector<float> values((piece.end - piece.first) * width);
+  const auto size = static_cast<std::size_t>(piece.end - piece.first) * width;
+  if (streamed_values_.size() < size) streamed_values_.resize(size);
+  float* const values = streamed_values_.data();
   for (const Piece& seen : seen_) {
     for_blocks(seen.end - seen.first, streamed_particles, [&](std::size_t first, std::size_t last) {
       source.make((seen.first + first) * width, (seen.first + last) * width,
-                  values.data() + (seen.first + first - piece.first) * width);
+                  values + (seen.first + first - piece.first) * width);
     });
   }
-  streamed_.push_back(device_.pool.upload(values, "chunk of a column"));
+  streamed_.push_back(device_.pool.upload(values, size, "chunk of a column"));
   return streamed_.back().memory();
 }
 

@@ -12,6 +12,7 @@
 #include "device/frame/shared.h"
 #include "device/opencl/device_context.h"
 #include "device/opencl/launch.h"
+#include "scene/memory_advice.h"
 #include "splotchcl/particles.h"
 
 namespace splotchcl {
@@ -105,6 +106,7 @@ class ParticleStore {
   std::map<Key, Entry> entries_;
   std::map<std::uint32_t, Constant> constants_;  // by the bits of their value
   std::vector<Buffer<float>> streamed_;          // of the last chunk
+  LargeVector<float> streamed_values_;           // room for a column's, on their way to the device
   std::vector<Piece> seen_;                      // stretches of it that are in view
   BlockBoxes boxes_;
   std::uint64_t device_bytes_ = 0;

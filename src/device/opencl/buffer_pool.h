@@ -164,10 +164,13 @@ class BufferPool {
   }
   template <class T>
   Buffer<T> upload(const std::vector<T>& values, const char* what) {
-    Buffer<T> buffer = get<T>(values.size(), what);
-    if (!values.empty()) {
-      timer_.add_copy(queue_.enqueue_write_buffer(buffer.memory(), 0, values.size() * sizeof(T),
-                                                  values.data()));
+    return upload(values.data(), values.size(), what);
+  }
+  template <class T>
+  Buffer<T> upload(const T* values, std::size_t count, const char* what) {
+    Buffer<T> buffer = get<T>(count, what);
+    if (count > 0) {
+      timer_.add_copy(queue_.enqueue_write_buffer(buffer.memory(), 0, count * sizeof(T), values));
     }
     return buffer;
   }
