@@ -19,6 +19,9 @@ __kernel void put_behind(const BehindParameters p, __global const Grid* grids,
   __global float* own = planes + pixel_at(*grid, 0, p.crop_x + x, p.crop_y + y);
   __global const float* behind = layer + (size_t)y * p.width + x;
   const size_t plane = grid->plane_size, layer_plane = (size_t)p.width * p.height;
+  // Pixels are independent: a compiler makes vectors of them, or need not say that it cannot.
+#pragma clang diagnostic ignored "-Wpass-failed"
+#pragma clang loop vectorize(assume_safety)
   for (int i = 0; i < count; ++i) {
     VALUE front[NUMBERS], layer_here[NUMBERS];
     load_numbers(own + i, plane, front);

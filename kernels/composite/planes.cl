@@ -37,11 +37,14 @@ INLINED void store_number(VALUE number, __global float* at, size_t plane) {
 #define store_number(number, at, plane) STORE(number, at)
 #endif
 
+// Unrolled, so that numbers stay in registers: PoCL leaves other loops as they are.
 INLINED void load_numbers(__global const float* at, size_t plane, VALUE* numbers) {
+#pragma unroll
   for (int c = 0; c < NUMBERS; ++c)
     numbers[c] = load_number(at + c * PLANES_OF_NUMBER * plane, plane);
 }
 INLINED void store_numbers(const VALUE* numbers, __global float* at, size_t plane) {
+#pragma unroll
   for (int c = 0; c < NUMBERS; ++c)
     store_number(numbers[c], at + c * PLANES_OF_NUMBER * plane, plane);
 }
@@ -49,12 +52,14 @@ INLINED void store_numbers(const VALUE* numbers, __global float* at, size_t plan
 // Puts a layer behind what is in front of it.
 INLINED void add_behind(VALUE* front, const VALUE* layer) {
 #if LIGHT_ORDERED
+#pragma unroll
   for (int c = 0; c < 3; ++c) {
     const VALUE transmittance = transmittance_of(front[c + 3]);
     front[c] += transmittance * layer[c];
     front[c + 3] = carry_behind(front[c + 3], transmittance, layer[c + 3]);
   }
 #else
+#pragma unroll
   for (int c = 0; c < NUMBERS; ++c)
     front[c] += layer[c];
 #endif
