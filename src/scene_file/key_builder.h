@@ -1,6 +1,7 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
+#include <new>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -65,6 +66,41 @@ struct Text {
   std::string absent = "";
 };
 
+// What gets or puts a value: a lambda with what it captures, pointers to members at most. There are
+// hundreds, and of each std::function would make the compiler a dozen functions.
+template <class Signature>
+class Access;
+
+template <class Result, class... Arguments>
+class Access<Result(Arguments...)> {
+ public:
+  template <class Lambda>
+  Access(Lambda lambda) : call_(call<Lambda>) {
+    static_assert(std::is_trivially_copyable_v<Lambda> && sizeof(Lambda) <= sizeof(captured_));
+    new (captured_) Lambda(lambda);
+  }
+  Result operator()(Arguments... arguments) const { return call_(captured_, arguments...); }
+
+ private:
+  template <class Lambda>
+  static Result call(const std::byte* captured, Arguments... arguments) {
+    return (*std::launder(reinterpret_cast<const Lambda*>(captured)))(arguments...);
+  }
+  alignas(void*) std::byte captured_[2 * sizeof(void*)];
+  Result (*call_)(const std::byte*, Arguments...);
+};
+
+// A part that is there as soon as one of its keys is.
+template <class Part>
+Part& there(std::optional<Part>& part) {
+  return part ? *part : part.emplace();
+}
+
+template <class Part>
+const Part& there(const std::optional<Part>& part) {
+  return *part;
+}
+
 // Part of a scene by its type, const as the scene is.
 template <class Part, class AnyScene>
 auto& part(AnyScene& scene, std::size_t component) {
@@ -82,6 +118,12 @@ auto& part(AnyScene& scene, std::size_t component) {
     return scene.sort;
   } else if constexpr (std::is_same_v<Part, PathSettings>) {
     return scene.path;
+  } else if constexpr (std::is_same_v<Part, Follow>) {
+    return there(scene.path.follow);
+  } else if constexpr (std::is_same_v<Part, Approach>) {
+    return there(scene.path.approach);
+  } else if constexpr (std::is_same_v<Part, MotionBlur>) {
+    return there(scene.movie.motion_blur);
   } else if constexpr (std::is_same_v<Part, MovieSettings>) {
     return scene.movie;
   } else if constexpr (std::is_same_v<Part, SequenceSettings>) {
@@ -100,11 +142,29 @@ auto& part(AnyScene& scene, std::size_t component) {
   }
 }
 
-// A key whose value is got from and put into a Part by functions.
-template <class Part, class V>
-Key key(const std::string& path, const ValueType<V>& type,
-        std::function<std::optional<V>(const Part&)> get, std::function<void(Part&, const V&)> set,
-        const Text& text) {
+template <class Part>
+bool has_part(const Scene& scene) {
+  if constexpr (std::is_same_v<Part, Camera>) {
+    return scene.camera.has_value();
+  } else if constexpr (std::is_same_v<Part, Stereo>) {
+    return scene.stereo.has_value();
+  } else if constexpr (std::is_same_v<Part, Follow>) {
+    return scene.path.follow.has_value();
+  } else if constexpr (std::is_same_v<Part, Approach>) {
+    return scene.path.approach.has_value();
+  } else if constexpr (std::is_same_v<Part, MotionBlur>) {
+    return scene.movie.motion_blur.has_value();
+  } else {
+    return true;
+  }
+}
+
+// A key whose value is got from and put into a scene by functions.
+template <class V>
+Key key_of_scene(const std::string& path, const ValueType<V>& type,
+                 const Access<std::optional<V>(const Scene&, std::size_t component)>& get,
+                 const Access<void(Scene&, std::size_t component, const V&)>& set,
+                 const Text& text) {
   Key key;
   key.path = path;
   key.expected = type.expected;
@@ -113,17 +173,30 @@ Key key(const std::string& path, const ValueType<V>& type,
   key.meaning = text.meaning;
   key.set = [read = type.read, set](Scene& scene, std::size_t component, const toml::node& node) {
     const std::optional<V> value = read(node);
-    if (value) set(part<Part>(scene, component), *value);
+    if (value) set(scene, component, *value);
     return value.has_value();
   };
   key.get = [write = type.write, get](const Scene& scene,
                                       std::size_t component) -> std::optional<std::string> {
-    if (std::is_same_v<Part, Camera> && !scene.camera) return std::nullopt;
-    if (std::is_same_v<Part, Stereo> && !scene.stereo) return std::nullopt;
-    const std::optional<V> value = get(part<Part>(scene, component));
+    const std::optional<V> value = get(scene, component);
     return value ? std::optional<std::string>(write(*value)) : std::nullopt;
   };
   return key;
+}
+
+// The same of a Part.
+template <class Part, class V, class Get, class Set>
+Key key(const std::string& path, const ValueType<V>& type, Get get, Set set, const Text& text) {
+  return key_of_scene<V>(
+      path, type,
+      [get](const Scene& scene, std::size_t component) -> std::optional<V> {
+        if (!has_part<Part>(scene)) return std::nullopt;
+        return get(part<Part>(scene, component));
+      },
+      [set](Scene& scene, std::size_t component, const V& value) {
+        set(part<Part>(scene, component), value);
+      },
+      text);
 }
 
 // A key whose value is a member of a Part, optional or not.

@@ -38,8 +38,7 @@ ValueType<std::vector<double>> numbers() {
 }
 
 // A length as the snapshot's number, or as a text with a unit of its own (MapSettings).
-Key length_key(const std::string& name, std::optional<double> MapSettings::*member,
-               const Text& meaning) {
+Key length_key(const char* name, std::optional<double> MapSettings::*member, const Text& meaning) {
   using Length = std::variant<double, std::string>;
   const auto read = [](const toml::node& node) -> std::optional<Length> {
     if (const auto value = number(more_than(0)).read(node)) return *value;
@@ -51,7 +50,7 @@ Key length_key(const std::string& name, std::optional<double> MapSettings::*memb
     return words != nullptr ? write_text(*words) : write_number(std::get<double>(length));
   };
   return key<MapSettings, Length>(
-      "map." + name,
+      std::string("map.") + name,
       {number(more_than(0)).expected + ", or a length such as \"4 Mpc\"", read, write},
       [name, member](const MapSettings& map) -> std::optional<Length> {
         const auto found = map.lengths_with_units.find(name);
@@ -71,7 +70,7 @@ Key length_key(const std::string& name, std::optional<double> MapSettings::*memb
 
 // Numbers, or a text such as "25,25,25Mpc".
 template <class V>
-Key lengths_key(const std::string& name, const ValueType<V>& numbers_of, const char* example,
+Key lengths_key(const char* name, const ValueType<V>& numbers_of, const char* example,
                 std::optional<V> MapSettings::*member, const Text& meaning) {
   using Lengths = std::variant<V, std::string>;
   const auto read = [read_numbers =
@@ -87,7 +86,7 @@ Key lengths_key(const std::string& name, const ValueType<V>& numbers_of, const c
     return words != nullptr ? write_text(*words) : write_numbers(std::get<V>(lengths));
   };
   return key<MapSettings, Lengths>(
-      "map." + name,
+      std::string("map.") + name,
       {numbers_of.expected + ", or lengths such as \"" + example + "\"", read, write},
       [name, member](const MapSettings& map) -> std::optional<Lengths> {
         const auto found = map.lengths_with_units.find(name);

@@ -238,35 +238,11 @@ ValueType<std::optional<Vec3>> point_or(const std::string& word) {
           [word](const Place& point) { return point ? vector().write(*point) : write_text(word); }};
 }
 
-// A key of a part of the path, which is there as soon as one of its keys is.
-template <class V, class Part>
-Key part_key(const std::string& path, std::optional<Part> PathSettings::*part,
-             const ValueType<V>& type, std::function<std::optional<V>(const Part&)> get,
-             std::function<void(Part&, const V&)> set, const Text& text) {
-  return key<PathSettings, V>(
-      path, type,
-      [part, get](const PathSettings& settings) {
-        return settings.*part ? get(*(settings.*part)) : std::optional<V>();
-      },
-      [part, set](PathSettings& settings, const V& value) {
-        std::optional<Part>& there = settings.*part;
-        set(there ? *there : there.emplace(), value);
-      },
-      text);
-}
-
-template <class V>
-Key follow_key(const std::string& name, const ValueType<V>& type,
-               std::function<std::optional<V>(const Follow&)> get,
-               std::function<void(Follow&, const V&)> set, const Text& text) {
-  return part_key<V, Follow>("path.follow." + name, &PathSettings::follow, type, get, set, text);
-}
-
 Keys followed_keys() {
   using Place = std::optional<Vec3>;
   return {
-      excluding(follow_key<std::uint64_t>(
-                    "halo", identifier(), [](const Follow& f) { return f.halo; },
+      excluding(key<Follow, std::uint64_t>(
+                    "path.follow.halo", identifier(), [](const Follow& f) { return f.halo; },
                     [](Follow& f, std::uint64_t value) {
                       f.halo = value;
                       f.sphere_center.reset();
@@ -276,15 +252,15 @@ Keys followed_keys() {
                      "see movies.md.",
                      "", "none"}),
                 {"path.follow.sphere.center", "path.follow.sphere.radius"}),
-      follow_key<std::string>(
-          "catalog", text(),
+      key<Follow, std::string>(
+          "path.follow.catalog", text(),
           [](const Follow& f) {
             return f.catalog.empty() ? std::nullopt : std::optional(f.catalog);
           },
           [](Follow& f, const std::string& value) { f.catalog = value; },
           {"The catalog for `halo`.", "", "the snapshot's group ids, else a catalog beside it"}),
-      follow_key<Place>(
-          "sphere.center", point_or("densest"),
+      key<Follow, Place>(
+          "path.follow.sphere.center", point_or("densest"),
           [](const Follow& f) {
             return f.halo ? std::nullopt : std::optional<Place>(std::in_place, f.sphere_center);
           },
@@ -293,8 +269,9 @@ Keys followed_keys() {
             f.sphere_center = value;
           },
           {"The camera follows what is in this sphere.", "length", "none"}),
-      follow_key<double>(
-          "sphere.radius", number(more_than(0)), [](const Follow& f) { return f.sphere_radius; },
+      key<Follow, double>(
+          "path.follow.sphere.radius", number(more_than(0)),
+          [](const Follow& f) { return f.sphere_radius; },
           [](Follow& f, double value) {
             f.halo.reset();
             f.sphere_radius = value;
@@ -307,16 +284,16 @@ Keys follow_keys() {
   Keys keys = followed_keys();
   append(keys,
          {
-             follow_key<double>(
-                 "snapshot", number(), [](const Follow& f) { return f.snapshot; },
+             key<Follow, double>(
+                 "path.follow.snapshot", number(), [](const Follow& f) { return f.snapshot; },
                  [](Follow& f, double value) { f.snapshot = value; },
                  {"The `time.index` at which it is looked up.", "", "the last"}),
-             follow_key<double>(
-                 "size", number(more_than(0)), [](const Follow& f) { return f.size; },
+             key<Follow, double>(
+                 "path.follow.size", number(more_than(0)), [](const Follow& f) { return f.size; },
                  [](Follow& f, double value) { f.size = value; },
                  {"The picture's shorter side.", "radii", "4"}),
-             follow_key<Follow::Up>(
-                 "up",
+             key<Follow, Follow::Up>(
+                 "path.follow.up",
                  choice<Follow::Up>({{"camera", Follow::Up::camera},
                                      {"angular_momentum", Follow::Up::angular_momentum}}),
                  [](const Follow& f) { return f.up; },
@@ -326,24 +303,16 @@ Keys follow_keys() {
   return keys;
 }
 
-template <class V>
-Key approach_key(const std::string& name, const ValueType<V>& type,
-                 std::function<std::optional<V>(const Approach&)> get,
-                 std::function<void(Approach&, const V&)> set, const Text& text) {
-  return part_key<V, Approach>("path.approach." + name, &PathSettings::approach, type, get, set,
-                               text);
-}
-
 Keys approach_keys() {
   using Place = std::optional<Vec3>;
   return {
-      approach_key<Place>(
-          "to", point_or("followed"),
+      key<Approach, Place>(
+          "path.approach.to", point_or("followed"),
           [](const Approach& a) { return std::optional<Place>(std::in_place, a.to); },
           [](Approach& a, const Place& value) { a.to = value; },
           {"The camera goes here from what it shows.", "length", "none"}),
-      approach_key<double>(
-          "width", number(more_than(0)), [](const Approach& a) { return a.width; },
+      key<Approach, double>(
+          "path.approach.width", number(more_than(0)), [](const Approach& a) { return a.width; },
           [](Approach& a, double value) { a.width = value; },
           {"Across the picture in the end.", "length", "as `path.follow.size` says"}),
   };
@@ -410,21 +379,6 @@ Range shutter_range() {
   return range;
 }
 
-template <class V>
-Key blur_key(const std::string& name, const ValueType<V>& type, V MotionBlur::*member,
-             const Text& text) {
-  return key<MovieSettings, V>(
-      "movie.motion_blur." + name, type,
-      [member](const MovieSettings& movie) {
-        return movie.motion_blur ? std::optional<V>((*movie.motion_blur).*member) : std::nullopt;
-      },
-      [member](MovieSettings& movie, const V& value) {
-        if (!movie.motion_blur) movie.motion_blur.emplace();
-        (*movie.motion_blur).*member = value;
-      },
-      text);
-}
-
 }  // namespace
 
 Keys movie_keys() {
@@ -457,11 +411,10 @@ Keys movie_keys() {
           },
           [](MovieSettings& movie, const std::string& value) { movie.audio = value; },
           {"A file whose sound lies under the film.", "", "none"}),
-      blur_key<double>(
-          "shutter", number(shutter_range()), &MotionBlur::shutter,
+      key("movie.motion_blur.shutter", number(shutter_range()), &MotionBlur::shutter,
           {"Frames are means over this part of their time.", "", "no motion blur, or 0.5"}),
-      blur_key<int>("samples", integer(2, 1000), &MotionBlur::samples,
-                    {"Pictures for a frame.", "", "no motion blur, or 8"}),
+      key("movie.motion_blur.samples", integer(2, 1000), &MotionBlur::samples,
+          {"Pictures for a frame.", "", "no motion blur, or 8"}),
   };
 }
 

@@ -246,7 +246,7 @@ std::vector<HardCase> data_cases() {
        {LightPlan::emission}},
       {"OneMoreThan2To24Particles", "counters in single precision end at 2^24",
        one_more_than_floats_count, all_plans, one_more_exact, false, Drawn::never,
-       Drawn::in_long_tests},
+       Drawn::in_long_tests, true, Drawn::in_long_tests},
       {"ListsOfSeveralPasses",
        "more list entries than fit at once, in order",
        lists_of_several_passes,

@@ -32,6 +32,7 @@ struct HardCase {
   Drawn in_groups = Drawn::always;     // the shape made for GPUs, slow on a processor
   Drawn most_exactly = Drawn::always;  // at tolerance 0
   bool has_bound = true;               // what is certified of it
+  Drawn certified_in_order = Drawn::always;
 };
 
 // Plans that cases are drawn by, where not all absorb.

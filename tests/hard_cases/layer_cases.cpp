@@ -106,7 +106,7 @@ std::vector<HardCase> layer_cases() {
       {"TenMillionAlternatingLayers",
        "bright and dark layers of 1e-7: source and opacity must both take every step",
        alternating(ten_million), ordered, alternating_layers_exact, false, Drawn::never,
-       Drawn::in_long_tests, colors_have_bound},
+       Drawn::in_long_tests, colors_have_bound, Drawn::in_long_tests},
       {"MillionAlternatingLayers", "the same with layers of 1e-6", alternating(million), ordered,
        alternating_layers_exact, false, Drawn::never, Drawn::always, colors_have_bound},
   };
