@@ -109,6 +109,7 @@ def test_progress_must_not_draw_the_same_particles(particles):
 INTERRUPTED = """
 import os, signal, threading
 import numpy as np, splotchcl
+signal.signal(signal.SIGINT, signal.default_int_handler)  # what runs behind a shell ignores it
 random = np.random.default_rng(1)
 particles = splotchcl.Particles().gas(
     position=random.random((COUNT, 3), np.float32), mass=1.0,
@@ -125,7 +126,7 @@ def began_with(what):
 try:
     DRAW
 except KeyboardInterrupt:
-    print("interrupted")
+    print("interrupted", flush=True)
     os._exit(0)
 """
 
