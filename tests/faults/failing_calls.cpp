@@ -26,6 +26,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstdarg>
 #include <cstddef>
 #include <cstdio>
@@ -215,11 +216,27 @@ FAILING("read", EIO, -1, ssize_t, pread64,
 FAILING("read", ECONNRESET, -1, ssize_t, recvmsg,
         (int descriptor, struct msghdr* message, int flags), (descriptor, message, flags), );
 
+namespace {
+
+// What has no type of a file, such as the counter by which a thread wakes another, takes all bytes
+// or none, and none only where it overflows. Pipes take up to so many at once, or none.
+bool may_fail(int descriptor) {
+  struct stat status {};
+  return descriptor > STDERR_FILENO && ::fstat(descriptor, &status) == 0 &&
+         (status.st_mode & S_IFMT) != 0;
+}
+bool may_be_short(int descriptor, std::size_t bytes) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && !(S_ISFIFO(status.st_mode) && bytes <= PIPE_BUF);
+}
+
+}  // namespace
+
 extern "C" ssize_t write(int descriptor, const void* data, std::size_t bytes) {
   static Original original(&write, "write");
-  if (descriptor > STDERR_FILENO) {
+  if (may_fail(descriptor)) {
     if (fails("write")) return failure<ssize_t>(ENOSPC, -1);
-    if (fails("short_write")) bytes = (bytes + 1) / 2;
+    if (may_be_short(descriptor, bytes) && fails("short_write")) bytes = (bytes + 1) / 2;
   }
   return original(descriptor, data, bytes);
 }
