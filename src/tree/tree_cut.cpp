@@ -57,6 +57,16 @@ bool has_sums(const Frame& frame) {
       "splotchcl tree wrote; write it again, or draw with --tree never");
 }
 
+// Of the tree, that are read for a loose particle: its place, or its values.
+std::uint64_t bytes_of_particle(const DrawnComponent& component) {
+  const Particles& in_order = component.particles.tree->in_order;
+  if (in_order.count == 0) return sizeof(std::uint32_t);
+  std::uint64_t values = 0;
+  for (const Column* const column : in_order.columns())
+    values += column->size() / in_order.count;
+  return values * sizeof(float);
+}
+
 // What nodes that are kept make together.
 struct Sums {
   explicit Sums(const Rectangle& crop)
@@ -336,7 +346,10 @@ class Cutter {
     cut.nodes = std::accumulate(nodes_.begin(), nodes_.end(), std::uint64_t{0});
     cut.particles = std::accumulate(particles_.begin(), particles_.end(), std::uint64_t{0});
     cut.visited = visited_;
-    cut.bytes = bytes_ + cut.particles * sizeof(std::uint32_t);
+    cut.bytes = bytes_;
+    for (std::size_t c = 0; c < particles_.size(); ++c) {
+      if (particles_[c] > 0) cut.bytes += particles_[c] * bytes_of_particle(frame_.components[c]);
+    }
     cut.estimate = settings_.error * limits_.largest_part(sums_.errors);
     cut.alike = alike();
     return cut;
