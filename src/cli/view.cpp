@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -61,6 +62,15 @@ constexpr std::chrono::milliseconds patience_at_the_end(1000);
   ::_exit(0);
 }
 
+// Once the server is gone that heard it, Ctrl-C would end the program before it could tell what
+// went wrong.
+struct DeafAtTheEnd {
+  ~DeafAtTheEnd() {
+    std::signal(SIGINT, SIG_IGN);
+    std::signal(SIGTERM, SIG_IGN);
+  }
+};
+
 // A scene that is looked at in a browser (docs/view.md).
 struct LiveView {
   LiveView(SceneWithSnapshot source, const ViewOptions& options, std::vector<std::string>& notes)
@@ -75,6 +85,7 @@ struct LiveView {
 
   std::string token;
   view::DrawLoop pages;
+  DeafAtTheEnd deaf;
   view::PageServer server;
 };
 
