@@ -276,9 +276,10 @@ void ComponentFields::wrap_around(const Vec3& center, Particles& particles) cons
 std::optional<std::string> ComponentFields::rounded_positions(const DrawnComponent& drawn) const {
   if (!are_offsets(drawn.particles)) return std::nullopt;
   const std::string size = component_.size_fixed ? std::string("fixed") : component_.size_field;
-  PlaceExtremes extremes = snapshot_.memory().get<PlaceExtremes>(
-      fmt::format("{}: extremes, sizes {}", placed_key(), size),
-      [&] { return find_extremes(drawn.particles, pass()); });
+  PlaceExtremes extremes =
+      snapshot_.memory().get<PlaceExtremes>(fmt::format("{}: extremes{}, sizes {}", placed_key(),
+                                                        periodic_box_ ? " when wrapped" : "", size),
+                                            [&] { return find_extremes(drawn.particles, pass()); });
   if (periodic_box_) extremes.largest_offset = static_cast<float>(periodic_box_->longest() / 2);
   if (!may_be_rounded(extremes, drawn.size_factor)) return std::nullopt;
   return tell_rounded_positions(drawn, pass());

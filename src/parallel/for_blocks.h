@@ -88,6 +88,11 @@ double thread_seconds();
 void for_blocks(std::size_t count, std::size_t block_size,
                 const std::function<void(std::size_t, std::size_t)>& work,
                 const std::function<void(double)>& progress = {});
+// For whoever is given a loop to run by.
+inline void run_on_all_cores(std::size_t count, std::size_t block_size,
+                             const std::function<void(std::size_t, std::size_t)>& work) {
+  for_blocks(count, block_size, work);
+}
 
 // The same on so many threads, the calling one among them, or as many as there are blocks.
 void for_blocks_on(std::size_t threads, std::size_t count, std::size_t block_size,

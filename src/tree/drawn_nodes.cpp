@@ -55,12 +55,9 @@ DrawnComponent DrawnNodes::nodes(const DrawnComponent& component) {
 
 DrawnComponent DrawnNodes::particles(const DrawnComponent& component) const {
   DrawnComponent loose = component;
-  const auto on_all_cores = [](std::size_t count, std::size_t block, const auto& work) {
-    for_blocks(count, block, work);
-  };
   const Particles& in_order = component.particles.tree->in_order;
   loose.particles = picked_particles(in_order.count > 0 ? in_order : component.particles,
-                                     particles_, on_all_cores);
+                                     particles_, run_on_all_cores);
   return loose;
 }
 

@@ -177,13 +177,10 @@ std::uint64_t file_bytes(const std::vector<TypeHeader>& headers) {
 void write_column(const Column& column, std::size_t width, const TreeOfType& tree,
                   CheckedWriter& writer) {
   constexpr std::uint64_t at_once = std::uint64_t{1} << 22;
-  const auto on_all_cores = [](std::size_t count, std::size_t block, const auto& work) {
-    for_blocks(count, block, work);
-  };
   for (std::uint64_t first = 0; first < tree.order_count; first += at_once) {
     const std::uint64_t last = std::min(tree.order_count, first + at_once);
     const std::vector<std::uint64_t> places(tree.order + first, tree.order + last);
-    Column values = picked_column(column, width, places, on_all_cores);
+    Column values = picked_column(column, width, places, run_on_all_cores);
     if (!values.is_array())
       values = Column::owning(std::vector<float>(width * places.size(), values[0]));
     writer.write(values.data(), values.size() * sizeof(float));
