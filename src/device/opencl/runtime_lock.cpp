@@ -1,5 +1,6 @@
 #include "device/opencl/runtime_lock.h"
 
+#include <dlfcn.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -51,11 +52,35 @@ bool is_handled(const struct sigaction& action) {
          (action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN);
 }
 
-void put_back(int signal, const struct sigaction& before) {
+const void* code_of(const struct sigaction& action) {
+  return (action.sa_flags & SA_SIGINFO) != 0 ? reinterpret_cast<const void*>(action.sa_sigaction)
+                                             : reinterpret_cast<const void*>(action.sa_handler);
+}
+
+// The library that holds it, or the program; null: none.
+const void* object_of(const void* code) {
+  Dl_info info = {};
+  return ::dladdr(code, &info) != 0 ? info.dli_fbase : nullptr;
+}
+
+// Whether it was asked for by this library, or by who had asked before: in another thread,
+// meanwhile.
+bool is_own(const struct sigaction& now, const struct sigaction& before) {
+  if (!is_handled(now)) return false;
+  const void* const object = object_of(code_of(now));
+  return object == object_of(reinterpret_cast<const void*>(&lock_runtime)) ||
+         object == object_of(code_of(before));
+}
+
+struct sigaction action_at(int signal) {
   struct sigaction now = {};
-  if (::sigaction(signal, nullptr, &now) == 0 && !are_same(now, before)) {
-    ::sigaction(signal, &before, nullptr);
-  }
+  ::sigaction(signal, nullptr, &now);
+  return now;
+}
+
+void put_back(int signal, const struct sigaction& before) {
+  const struct sigaction now = action_at(signal);
+  if (!are_same(now, before) && !is_own(now, before)) ::sigaction(signal, &before, nullptr);
 }
 
 }  // namespace
@@ -71,7 +96,8 @@ KeptSignals::~KeptSignals() {
   for (std::size_t i = 0; i < of_faults.size(); ++i)
     put_back(of_faults[i], at_faults_[i]);
   for (std::size_t i = 0; i < of_others.size(); ++i) {
-    if (is_handled(at_others_[i])) put_back(of_others[i], at_others_[i]);
+    if (is_handled(at_others_[i]) && is_handled(action_at(of_others[i])))
+      put_back(of_others[i], at_others_[i]);
   }
 }
 

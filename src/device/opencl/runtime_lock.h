@@ -9,8 +9,9 @@ namespace splotchcl {
 
 // Puts signals back to what the process does with them, at its end: compilers of kernels take them
 // for themselves, and what ends the process then neither tells why nor removes what it has begun.
-// Signals by which others end the process only where it had handled them: in another thread it may
-// have begun to meanwhile.
+// Not where this library or the program itself has taken them meanwhile, in another thread: what
+// was there before may be a compiler's. Signals by which others end the process only where they
+// were handled, and are: the first one may have come.
 class KeptSignals {
  public:
   KeptSignals();
