@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "splotchcl/particles.h"
@@ -30,7 +32,8 @@ void expect_all_written(void* memory, std::size_t bytes);
 // whatever threads call this for parts of it.
 void make_pages(void* memory, std::size_t bytes);
 
-// For arrays that are written whole: long ones lie on pages of 2 MiB.
+// For arrays that are written whole: what they grow by is not written beforehand, and long ones lie
+// on pages of 2 MiB.
 template <class T>
 struct LargePageAllocator {
   using value_type = T;
@@ -53,6 +56,14 @@ struct LargePageAllocator {
       ::operator delete(memory);
     }
   }
+  template <class U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
   friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
   friend bool operator!=(const LargePageAllocator&, const LargePageAllocator&) { return false; }
 
@@ -61,6 +72,8 @@ struct LargePageAllocator {
 };
 template <class T>
 using LargeVector = std::vector<T, LargePageAllocator<T>>;
+// Of particles in columns.
+using Places = LargeVector<std::uint64_t>;
 
 // These values, one after the other.
 Column owning_column(LargeVector<float> values);

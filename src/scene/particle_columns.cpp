@@ -178,8 +178,8 @@ namespace {
 
 // Of places from `first` on, those that are read together: many, and from the least to the largest
 // of them it is no farther than a look at each of them takes. Else the first alone.
-std::size_t end_of_run(const std::vector<std::uint64_t>& places, std::size_t first,
-                       std::size_t last, std::uint64_t& from, std::uint64_t& to) {
+std::size_t end_of_run(const Places& places, std::size_t first, std::size_t last,
+                       std::uint64_t& from, std::uint64_t& to) {
   constexpr std::uint64_t values_per_look = 16, longest = 65536;
   constexpr std::size_t fewest = 16;
   from = to = places[first];
@@ -196,9 +196,8 @@ std::size_t end_of_run(const std::vector<std::uint64_t>& places, std::size_t fir
   return first + 1;
 }
 
-void pick_from_source(const ColumnSource& source, std::size_t width,
-                      const std::vector<std::uint64_t>& places, std::size_t first, std::size_t last,
-                      float* to) {
+void pick_from_source(const ColumnSource& source, std::size_t width, const Places& places,
+                      std::size_t first, std::size_t last, float* to) {
   std::vector<float> run;
   for (std::size_t next = first; next < last;) {
     std::uint64_t least = 0, largest = 0;
@@ -213,8 +212,8 @@ void pick_from_source(const ColumnSource& source, std::size_t width,
 
 }  // namespace
 
-Column picked_column(const Column& column, std::size_t width,
-                     const std::vector<std::uint64_t>& places, const RunBlocks& run) {
+Column picked_column(const Column& column, std::size_t width, const Places& places,
+                     const RunBlocks& run) {
   if (!column.is_array() || column.size() == 0) return column;
   const auto source = column.source();
   LargeVector<float> values(width * places.size());
@@ -231,8 +230,7 @@ Column picked_column(const Column& column, std::size_t width,
   return owning_column(std::move(values));
 }
 
-Particles picked_particles(const Particles& particles, const std::vector<std::uint64_t>& places,
-                           const RunBlocks& run) {
+Particles picked_particles(const Particles& particles, const Places& places, const RunBlocks& run) {
   Particles some = particles;
   some.count = places.size();
   some.boxes = nullptr;

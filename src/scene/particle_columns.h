@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/memory_advice.h"
 #include "splotchcl/particles.h"
 
 namespace splotchcl {
@@ -170,12 +171,12 @@ inline void run_as_one(std::size_t count, std::size_t,
 }
 
 // Values of a column, `width` for each particle, of those at these places.
-Column picked_column(const Column& column, std::size_t width,
-                     const std::vector<std::uint64_t>& places, const RunBlocks& run);
+Column picked_column(const Column& column, std::size_t width, const Places& places,
+                     const RunBlocks& run);
 
 // The particles at these places, in memory. Values that are made when they are wanted are made for
 // these alone, particle by particle.
-Particles picked_particles(const Particles& particles, const std::vector<std::uint64_t>& places,
+Particles picked_particles(const Particles& particles, const Places& places,
                            const RunBlocks& run = run_as_one);
 
 }  // namespace splotchcl

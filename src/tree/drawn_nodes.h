@@ -26,7 +26,7 @@ class DrawnNodes {
 
  private:
   LargeVector<float> position_, smoothing_length_, weight_, color_;
-  std::vector<std::uint64_t> particles_;  // their places in the component
+  Places particles_;  // their places in the component
 };
 
 }  // namespace splotchcl

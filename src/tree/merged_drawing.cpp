@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -17,9 +18,11 @@
 namespace splotchcl {
 namespace {
 
-// Fewer particles over a pixel do not gain, and a splat of a cut takes as long as four particles.
+// Fewer particles over a pixel do not gain. A splat of a cut takes as long as five particles, those
+// by which it is verified included, and as long again where it fails.
 constexpr double least_over_pixel = 50;
-constexpr double most_splats = 0.25;        // over particles
+constexpr double most_that_pay = 1.0 / 16, most_that_pay_again = 1.0 / 32;  // over particles
+constexpr double most_splats_again = 1.0 / 8;
 constexpr double part_of_nodes = 0.7;       // of the tolerance
 constexpr double verified_finer = 4;        // error of the cut to which a picture is compared
 constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
@@ -29,7 +32,8 @@ constexpr int most_cuts = 3;
 // takes little, since nodes that were weighed are known.
 constexpr int corrections = 4, corrections_of_finer = 3;
 constexpr int blocks_of_region = 2;  // on each side
-constexpr std::size_t regions_of_each_kind = 8;
+// Of each kind, an eighth of the picture at most: these take four times as many splats and more.
+constexpr std::size_t most_regions = 8, fewest_regions = 2, regions_per_one = 16;
 
 // Squares of blocks, as far as the crop reaches.
 std::vector<Rectangle> all_regions(const Rectangle& crop) {
@@ -57,7 +61,9 @@ float largest_alike(const Rectangle& region, const Rectangle& crop, const BlockE
 // chooses anew; of few all.
 std::vector<Rectangle> verified_regions(const Frame& frame, const BlockErrors& alike) {
   std::vector<Rectangle> regions = all_regions(frame.crop);
-  if (regions.size() <= 2 * regions_of_each_kind) return regions;
+  const std::size_t of_each_kind =
+      std::clamp(regions.size() / regions_per_one, fewest_regions, most_regions);
+  if (regions.size() <= 2 * of_each_kind) return regions;
   std::vector<std::pair<float, std::size_t>> by_error;
   for (std::size_t r = 0; r < regions.size(); ++r)
     by_error.emplace_back(-largest_alike(regions[r], frame.crop, alike), r);
@@ -68,12 +74,12 @@ std::vector<Rectangle> verified_regions(const Frame& frame, const BlockErrors& a
   for (const double number : frame.camera.forward.a)
     hash.add(number);
   std::vector<Rectangle> chosen;
-  for (std::size_t r = 0; r < regions_of_each_kind; ++r)
+  for (std::size_t r = 0; r < of_each_kind; ++r)
     chosen.push_back(regions[by_error[r].second]);
   std::vector<std::size_t> others;
-  for (std::size_t r = regions_of_each_kind; r < by_error.size(); ++r)
+  for (std::size_t r = of_each_kind; r < by_error.size(); ++r)
     others.push_back(by_error[r].second);
-  for (std::size_t r = 0; r < regions_of_each_kind && r < others.size(); ++r) {
+  for (std::size_t r = 0; r < of_each_kind && r < others.size(); ++r) {
     const std::uint64_t random = hash_of(hash.value() + r);
     std::swap(others[r], others[r + static_cast<std::size_t>(random % (others.size() - r))]);
     chosen.push_back(regions[others[r]]);
@@ -117,7 +123,7 @@ std::vector<Rectangle> sampled_regions(const Rectangle& crop) {
 // Of nodes and particles, by those in a part of the picture.
 double expected_splats(const Frame& frame) {
   const std::vector<Rectangle> regions = sampled_regions(frame.crop);
-  const TreeCut cut = cut_tree(frame, {part_of_nodes * frame.tolerance, regions, 1, true});
+  const TreeCut cut = cut_tree(frame, {part_of_nodes * frame.tolerance, regions, 2, true});
   const double all = static_cast<double>(frame.crop.width) * frame.crop.height;
   double area = 0;
   for (const Rectangle& region : regions)
@@ -125,21 +131,42 @@ double expected_splats(const Frame& frame) {
   return static_cast<double>(cut.nodes + cut.particles) * all / area;
 }
 
-// Regions are drawn together: elsewhere that picture shows a part of its light.
-void verify(const Frame& frame, double error, const std::vector<Rectangle>& regions,
-            const std::function<Image(const Frame&)>& draw, MergedDrawing& drawing) {
-  TreeCut finer = cut_tree(frame, {error / verified_finer, regions, corrections_of_finer});
+// Regions are drawn together: elsewhere that picture shows a part of its light. Of each region what
+// the drawing differs by, over what is promised.
+std::vector<double> verify(const Frame& frame, CutSettings settings,
+                           const std::function<Image(const Frame&)>& draw, MergedDrawing& drawing) {
+  settings.error /= verified_finer;
+  settings.corrections = corrections_of_finer;
+  TreeCut finer = cut_tree(frame, settings);
   finer.frame.tolerance = verified_tolerance * frame.tolerance;
   const Image exact = draw(finer.frame);
   drawing.visited += finer.visited;
   drawing.bytes += finer.bytes;
   drawing.found = 0;
   drawing.verified_blocks = 0;
-  for (const Rectangle& region : regions) {
+  std::vector<double> differences;
+  for (const Rectangle& region : settings.regions) {
     const double difference = largest_difference(drawing.image, exact, frame.crop, region);
-    drawing.found = std::max(drawing.found, difference / frame.tolerance);
+    differences.push_back(difference / frame.tolerance);
+    drawing.found = std::max(drawing.found, differences.back());
     drawing.verified_blocks +=
         BlockErrors::blocks_along(region.width) * BlockErrors::blocks_along(region.height);
+  }
+  return differences;
+}
+
+// Of blocks where nodes would err by as much as in a region that failed, if they erred alike.
+void take_smaller_part(const Frame& frame, const BlockErrors& alike,
+                       const std::vector<Rectangle>& regions,
+                       const std::vector<double>& differences, double found, BlockErrors& parts) {
+  float least = std::numeric_limits<float>::infinity();
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (differences[r] > most_found)
+      least = std::min(least, largest_alike(regions[r], frame.crop, alike));
+  }
+  for (std::size_t block = 0; block < parts.errors.size(); ++block) {
+    if (alike.errors[block] >= least)
+      parts.errors[block] *= static_cast<float>(std::max(0.2, 0.5 / found));
   }
 }
 
@@ -152,7 +179,7 @@ bool has_particles_for_tree(const Frame& frame) {
 
 bool tree_pays(const Frame& frame) {
   return has_served_component(frame) && has_particles_for_tree(frame) &&
-         expected_splats(frame) < most_splats * static_cast<double>(particle_count(frame));
+         expected_splats(frame) < most_that_pay * static_cast<double>(particle_count(frame));
 }
 
 std::string explain_tree(const Frame& frame) {
@@ -166,13 +193,20 @@ std::string explain_tree(const Frame& frame) {
 }
 
 std::optional<MergedDrawing> draw_merged(const Frame& frame,
-                                         const std::function<Image(const Frame&)>& draw) {
+                                         const std::function<Image(const Frame&)>& draw,
+                                         bool has_to_pay) {
   MergedDrawing drawing;
-  double error = part_of_nodes * frame.tolerance;
+  CutSettings settings{part_of_nodes * frame.tolerance, {}, corrections};
+  settings.parts_of_error = BlockErrors(frame.crop.width, frame.crop.height);
+  std::fill(settings.parts_of_error.errors.begin(), settings.parts_of_error.errors.end(), 1.0f);
   for (drawing.cuts = 1; drawing.cuts <= most_cuts; ++drawing.cuts) {
-    TreeCut cut = cut_tree(frame, {error, {}, corrections});
-    const bool is_worth_it = cut.nodes + cut.particles < particle_count(frame) / 8;
-    if (drawing.cuts > 1 && !is_worth_it) return std::nullopt;
+    TreeCut cut = cut_tree(frame, settings);
+    const double splats = static_cast<double>(cut.nodes + cut.particles);
+    const double particles = static_cast<double>(particle_count(frame));
+    const bool is_first = drawing.cuts == 1;
+    if (has_to_pay && splats > (is_first ? most_that_pay : most_that_pay_again) * particles)
+      return std::nullopt;
+    if (!is_first && splats > most_splats_again * particles) return std::nullopt;
     cut.frame.tolerance = (1 - part_of_nodes) * frame.tolerance;
     drawing.image = draw(cut.frame);
     drawing.nodes = cut.nodes;
@@ -180,9 +214,12 @@ std::optional<MergedDrawing> draw_merged(const Frame& frame,
     drawing.visited += cut.visited;
     drawing.bytes += cut.bytes;
     drawing.estimate = cut.estimate / frame.tolerance;
-    verify(frame, error, verified_regions(frame, cut.alike), draw, drawing);
+    CutSettings of_regions = settings;
+    of_regions.regions = verified_regions(frame, cut.alike);
+    const auto differences = verify(frame, of_regions, draw, drawing);
     if (drawing.found <= most_found) return drawing;
-    error *= std::max(0.2, 0.5 / drawing.found);
+    take_smaller_part(frame, cut.alike, of_regions.regions, differences, drawing.found,
+                      settings.parts_of_error);
   }
   return std::nullopt;
 }

@@ -15,8 +15,33 @@ constexpr double most_of_one_node = 10;
 constexpr double usual_error2 = 4.4e-5;
 // A part of what is promised is left for what corrections miss.
 constexpr double part_that_is_taken = 0.8;
+// What nodes may err by if all err alike, over what they may as they do, of which the worst squares
+// were off by 0.4 to 0.7. It falls slowly: a node of fewer particles is smaller by their third
+// root.
+constexpr double most_alike = 2, power_of_alike = 2;
 // What nodes take grows by less than their limit.
 constexpr double power_of_limit = 1.2, most_widened = 8, most_narrowed = 30;
+
+// Of each cell's light the least around it: beside a peak pixels are darker than their cell.
+std::vector<double> least_around(const ErrorCells& cells, const std::vector<double>& lights) {
+  const int columns = cells.columns(0);
+  const int rows = static_cast<int>(lights.size()) / columns;
+  const auto least_along = [&](const std::vector<double>& of, int step_x, int step_y) {
+    std::vector<double> least = of;
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < columns; ++x) {
+        for (const int side : {-1, 1}) {
+          const int beside_x = std::clamp(x + side * step_x, 0, columns - 1);
+          const int beside_y = std::clamp(y + side * step_y, 0, rows - 1);
+          double& own = least[static_cast<std::size_t>(y * columns + x)];
+          own = std::min(own, of[static_cast<std::size_t>(beside_y * columns + beside_x)]);
+        }
+      }
+    }
+    return least;
+  };
+  return least_along(least_along(lights, 1, 0), 0, 1);
+}
 
 // Of limits at scale 0 the geometric mean of those within each larger cell.
 void widen(const ErrorCells& cells, CellNumbers& limits) {
@@ -39,6 +64,26 @@ double variance_of(const WeighedNode& node, const ErrorCells& cells) {
   return static_cast<double>(node.error2) / (pixels * pixels);
 }
 
+NodeLimits::NodeLimits(double error, bool has_sums, const BlockErrors& parts,
+                       const ErrorCells& cells)
+    : error_(error), has_sums_(has_sums) {
+  for (int s = 0; s < cells.scales(); ++s)
+    parts_.emplace_back(cells.count(s), 1.0);
+  if (parts.errors.empty()) return;
+  const int columns = cells.columns(0);
+  for (std::size_t cell = 0; cell < parts_[0].size(); ++cell) {
+    const int x = static_cast<int>(cell) % columns, y = static_cast<int>(cell) / columns;
+    const float part = parts.at(ErrorCells::cell_pixels * x, ErrorCells::cell_pixels * y);
+    parts_[0][cell] = static_cast<double>(part);
+  }
+  for (std::size_t s = 1; s < parts_.size(); ++s) {
+    for (std::size_t cell = 0; cell < parts_[s - 1].size(); ++cell) {
+      double& part = parts_[s][cells.parent(static_cast<int>(s) - 1, cell)];
+      part = std::min(part, parts_[s - 1][cell]);
+    }
+  }
+}
+
 double NodeLimits::promised(double light) const {
   const double error = error_ * (has_sums_ ? std::max(1.0, 0.5 * light) : 1);
   return std::pow(error / standard_deviations, 2);
@@ -48,14 +93,16 @@ double NodeLimits::promised(double light) const {
 // squared light, they make a variance of 16 e^2 I^2 / n. It is V where each errs by V^2 / (e^2
 // I^2).
 void NodeLimits::see(const ErrorCells& light) {
-  const CellNumbers lights = light.least_totals();
+  CellNumbers lights = light.least_totals();
+  if (has_sums_) lights[0] = least_around(light, lights[0]);
   promised_.resize(lights.size());
   of_node_.resize(lights.size());
   for (std::size_t s = 0; s < lights.size(); ++s) {
     promised_[s].resize(lights[s].size());
     if (!is_corrected_) of_node_[s].resize(lights[s].size());
     for (std::size_t cell = 0; cell < lights[s].size(); ++cell) {
-      const double variance = promised_[s][cell] = promised(lights[s][cell]);
+      const double variance = promised_[s][cell] =
+          std::pow(parts_[s][cell], 2) * promised(lights[s][cell]);
       if (is_corrected_) continue;
       const double of_light = usual_error2 * lights[s][cell] * lights[s][cell];
       of_node_[s][cell] = variance * variance / std::max(of_light, 1e-30);
@@ -72,11 +119,16 @@ bool NodeLimits::keeps(const WeighedNode& node, const ErrorCells& cells) const {
          static_cast<double>(node.largest2) <= most;
 }
 
-void NodeLimits::correct(const ErrorCells& used) {
-  const CellNumbers taken = used.totals();
+void NodeLimits::correct(const ErrorCells& used, const ErrorCells& alike) {
+  const CellNumbers taken = used.totals(), taken_alike = alike.totals();
   for (std::size_t cell = 0; cell < of_node_[0].size(); ++cell) {
     const double most = part_that_is_taken * promised_[0][cell];
-    const double change = std::pow(most / std::max(taken[0][cell], 1e-300), power_of_limit);
+    const double of_alike = most_alike * standard_deviations * std::sqrt(promised_[0][cell]);
+    double change = std::pow(most / std::max(taken[0][cell], 1e-300), power_of_limit);
+    if (is_corrected_) {
+      change = std::min(
+          change, std::pow(of_alike / std::max(taken_alike[0][cell], 1e-300), power_of_alike));
+    }
     of_node_[0][cell] *= std::clamp(change, 1 / most_narrowed, most_widened);
   }
   widen(used, of_node_);
@@ -88,7 +140,8 @@ double NodeLimits::largest_part(const ErrorCells& used) const {
   const CellNumbers taken = used.totals();
   double largest = 0;
   for (std::size_t cell = 0; cell < taken[0].size(); ++cell) {
-    if (promised_[0][cell] > 0) largest = std::max(largest, taken[0][cell] / promised_[0][cell]);
+    const double promised = promised_[0][cell] / std::pow(parts_[0][cell], 2);
+    if (promised > 0) largest = std::max(largest, taken[0][cell] / promised);
   }
   return std::sqrt(largest);
 }

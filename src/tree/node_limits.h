@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "splotchcl/frame_check.h"
 #include "tree/error_cells.h"
 #include "tree/node_weighing.h"
 
@@ -12,15 +13,16 @@ namespace splotchcl {
 class NodeLimits {
  public:
   // Six standard deviations of a pixel are to be at most `error`, over max(1, light / 2) where
-  // light only adds up.
-  NodeLimits(double error, bool has_sums) : error_(error), has_sums_(has_sums) {}
+  // light only adds up, or a part of that in each block; where there are none, all of it.
+  NodeLimits(double error, bool has_sums, const BlockErrors& parts, const ErrorCells& cells);
 
   // Of all that is drawn, as far as it is known: what may be erred by follows from it, and until
   // correct() was called what a node may.
   void see(const ErrorCells& light);
   bool keeps(const WeighedNode& node, const ErrorCells& cells) const;
-  // After all nodes were looked at with these limits: nodes have taken so much.
-  void correct(const ErrorCells& used);
+  // After all nodes were looked at with these limits: nodes have taken so much, and would take so
+  // much of an error, not of a variance, if all erred alike.
+  void correct(const ErrorCells& used, const ErrorCells& alike);
   // The largest standard deviation of what nodes err by that was taken, over what is promised.
   double largest_part(const ErrorCells& used) const;
 
@@ -29,6 +31,7 @@ class NodeLimits {
 
   double error_;
   bool has_sums_, is_corrected_ = false;
+  CellNumbers parts_;     // of the error; of larger cells the least within
   CellNumbers promised_;  // variances of a pixel
   CellNumbers of_node_;   // squared errors, added up over pixels
 };

@@ -56,7 +56,7 @@ WeighedNode NodeWeigher::weigh(const TreePart& part, const TreeItem& item,
   const double reach = tree.side * cell * rough_of_bits(node.reach);
   const double widest =
       tree.side * part.deviation_per_h * std::sqrt(2.0) * smoothing_of_bits(node.widest);
-  WeighedNode weighed;
+  WeighedNode weighed{};
   weighed.fate = NodeFate::open;
   weighed.children =
       static_cast<std::uint8_t>(std::bitset<8>(tree.levels[level].children[item.node]).count());
@@ -161,8 +161,9 @@ void NodeWeigher::weigh_error(const TreePart& part, const TreeItem& item, std::s
   weighed.largest2 =
       static_cast<float>(square(light) * (of_places / spread.area + of_samples / narrow.area));
   weighed.scale = static_cast<std::uint8_t>(cells_.scale_of(2 * std::sqrt(seen2 + shape.place2)));
-  weighed.cell = static_cast<std::uint32_t>(
-      cells_.cell_at(weighed.scale, at.x - frame_.crop.x, at.y - frame_.crop.y));
+  const double x = at.x - frame_.crop.x, y = at.y - frame_.crop.y;
+  weighed.cell = static_cast<std::uint32_t>(cells_.cell_at(weighed.scale, x, y));
+  weighed.is_beside = x < 0 || y < 0 || x > frame_.crop.width || y > frame_.crop.height;
   weighed.light = static_cast<float>(light * amplitude);
   weighed.color = color.mean;
   weighed.fate = NodeFate::weighed;

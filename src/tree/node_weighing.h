@@ -14,16 +14,17 @@ namespace splotchcl {
 
 enum class NodeFate : std::uint8_t { unseen, open, weighed };
 
-// What a node would err by if it were drawn, and where.
+// What a node would err by if it were drawn, and where. Unset at first, as there are many.
 struct WeighedNode {
-  float error2 = 0;    // squared, added up over pixels
-  float largest2 = 0;  // squared, in one pixel
-  float light = 0;
-  std::uint32_t cell = 0;  // of its scale
-  std::uint8_t scale = 0;
-  NodeFate fate = NodeFate::unseen;
-  std::uint8_t children = 0;
-  std::array<float, 3> color{};
+  float error2;    // squared, added up over pixels
+  float largest2;  // squared, in one pixel
+  float light;
+  std::uint32_t cell;  // of its scale
+  std::uint8_t scale;
+  NodeFate fate;
+  std::uint8_t children;
+  bool is_beside;  // the picture, and counts in the nearest cell
+  std::array<float, 3> color;
 };
 
 // Looks at nodes as a frame shows them.

@@ -77,7 +77,7 @@ struct Sums {
   void add(const WeighedNode& node) {
     errors.at(node.scale, node.cell) += variance_of(node, errors);
     add_light(node, light);
-    if (!(node.largest2 > 0)) return;
+    if (!(node.largest2 > 0) || node.is_beside) return;
     const double pixels = alike.pixels(node.scale);
     alike.at(node.scale, node.cell) += static_cast<double>(node.error2) /
                                        std::sqrt(static_cast<double>(node.largest2)) /
@@ -107,7 +107,7 @@ class Cutter {
         parts_(tree_parts(frame)),
         sums_(frame.crop),
         weigher_(frame, regions_, sums_.errors, settings.only_counts, settings.corrections > 0),
-        limits_(settings.error, has_sums(frame)),
+        limits_(settings.error, has_sums(frame), settings.parts_of_error, sums_.errors),
         nodes_(frame.components.size(), 0),
         particles_(frame.components.size(), 0) {}
 
@@ -120,7 +120,7 @@ class Cutter {
     }
     for (int pass = 0; pass < settings_.corrections; ++pass) {
       walk();
-      limits_.correct(sums_.errors);
+      limits_.correct(sums_.errors, sums_.alike);
     }
     draws_ = true;
     walk();
@@ -130,7 +130,7 @@ class Cutter {
  private:
   void look_at_root(Walk& walk) {
     KnownLevel root;
-    root.items.emplace_back();
+    root.items.push_back(TreeItem{});
     root.weighed.push_back(weigher_.weigh(parts_[walk.part], root.items[0], 0));
     root.first_children.push_back(unknown);
     ++visited_;
@@ -181,7 +181,11 @@ class Cutter {
       for (std::size_t r = first; r < last; ++r) {
         const WeighedNode& node = walk.levels[level].weighed[walk.reached[r]];
         const bool is_kept = node.fate == NodeFate::weighed && limits_.keeps(node, sums_.errors);
-        if (is_kept) own.add(node);
+        if (is_kept) {
+          own.add(node);
+        } else if (node.fate == NodeFate::weighed && node.children == 0) {
+          Sums::add_light(node, own.light);  // of its particles
+        }
         walk.is_opened[r] = !is_kept && node.fate != NodeFate::unseen;
       }
     });
@@ -189,26 +193,80 @@ class Cutter {
       sums_.add(own);
   }
 
-  void note_drawn(const Walk& walk, std::size_t level) {
-    DrawnLevel drawn;
-    drawn.part = walk.part;
-    drawn.level = level;
-    const std::size_t component = parts_[walk.part].component;
-    drawn.first_node = nodes_[component];
-    drawn.first_particle = particles_[component];
-    const TreeLevel& of_tree = parts_[walk.part].tree().levels[level];
-    for (std::size_t r = 0; r < walk.reached.size(); ++r) {
+  // Nodes that were reached are counted stretch by stretch, so that each stretch knows where its
+  // own are written.
+  static constexpr std::size_t stretch = 16384;
+
+  // How many there are before each stretch, and in all.
+  template <class Numbers, class Count>
+  static std::vector<Numbers> before_stretches(std::size_t reached, const Count& count) {
+    std::vector<Numbers> before(ceil_divide(reached, stretch) + 1);
+    for_blocks(reached, stretch, [&](std::size_t first, std::size_t last) {
+      Numbers& own = before[first / stretch + 1];
+      for (std::size_t r = first; r < last; ++r)
+        count(r, own);
+    });
+    for (std::size_t s = 1; s < before.size(); ++s)
+      before[s].add(before[s - 1]);
+    return before;
+  }
+
+  struct DrawnNumbers {
+    std::size_t kept = 0, opened = 0;
+    std::uint64_t loose = 0;
+    void add(const DrawnNumbers& others) {
+      kept += others.kept;
+      opened += others.opened;
+      loose += others.loose;
+    }
+  };
+
+  void note_drawn(const Walk& walk, std::size_t level_number) {
+    const KnownLevel& level = walk.levels[level_number];
+    const std::uint8_t* const loose_of = parts_[walk.part].tree().levels[level_number].loose;
+    const auto count = [&](std::size_t r, DrawnNumbers& numbers) {
       const std::uint32_t i = walk.reached[r];
       if (walk.is_opened[r] == 0) {
-        if (walk.levels[level].weighed[i].fate != NodeFate::unseen) drawn.kept.push_back(i);
-      } else if (const unsigned loose = of_tree.loose[walk.levels[level].items[i].node]) {
-        drawn.opened.push_back(i);
-        drawn.behind.push_back(particles_[component] += loose);
+        numbers.kept += level.weighed[i].fate != NodeFate::unseen ? 1 : 0;
+      } else if (const unsigned loose = loose_of[level.items[i].node]) {
+        ++numbers.opened;
+        numbers.loose += loose;
       }
-    }
-    nodes_[component] += drawn.kept.size();
-    if (!settings_.only_counts) drawn_.push_back(std::move(drawn));
+    };
+    const auto before = before_stretches<DrawnNumbers>(walk.reached.size(), count);
+    const std::size_t component = parts_[walk.part].component;
+    DrawnLevel drawn;
+    drawn.part = walk.part;
+    drawn.level = level_number;
+    drawn.first_node = nodes_[component];
+    drawn.first_particle = particles_[component];
+    nodes_[component] += before.back().kept;
+    particles_[component] += before.back().loose;
+    if (settings_.only_counts) return;
+    drawn.kept.resize(before.back().kept);
+    drawn.opened.resize(before.back().opened);
+    drawn.behind.resize(before.back().opened);
+    for_blocks(walk.reached.size(), stretch, [&](std::size_t first, std::size_t last) {
+      DrawnNumbers at = before[first / stretch];
+      for (std::size_t r = first; r < last; ++r) {
+        const DrawnNumbers was = at;
+        count(r, at);
+        if (at.kept > was.kept) drawn.kept[was.kept] = walk.reached[r];
+        if (at.opened == was.opened) continue;
+        drawn.opened[was.opened] = walk.reached[r];
+        drawn.behind[was.opened] = drawn.first_particle + at.loose;
+      }
+    });
+    drawn_.push_back(std::move(drawn));
   }
+
+  struct ChildNumbers {
+    std::size_t all = 0, unknown = 0;
+    void add(const ChildNumbers& others) {
+      all += others.all;
+      unknown += others.unknown;
+    }
+  };
 
   // The children of opened nodes are reached next, and looked at where they were not yet.
   void reach_children(Walk& walk, std::size_t level_number) {
@@ -216,36 +274,40 @@ class Cutter {
     if (walk.levels.size() == level_number + 1) walk.levels.emplace_back();
     KnownLevel& level = walk.levels[level_number];
     KnownLevel& next = walk.levels[level_number + 1];
-    LargeVector<std::uint32_t> children, newly_opened;
-    const std::size_t known_before = next.items.size();
-    std::size_t known = known_before;
-    for (std::size_t r = 0; r < walk.reached.size(); ++r) {
-      if (walk.is_opened[r] == 0) continue;
+    const auto count = [&](std::size_t r, ChildNumbers& numbers) {
+      if (walk.is_opened[r] == 0) return;
       const std::uint32_t i = walk.reached[r];
-      const unsigned count = level.weighed[i].children;
-      if (count == 0) continue;
-      if (level.first_children[i] == unknown) {
-        level.first_children[i] = static_cast<std::uint32_t>(known);
-        known += count;
-        newly_opened.push_back(i);
-      }
-      for (unsigned child = 0; child < count; ++child)
-        children.push_back(level.first_children[i] + child);
-    }
-    if (known >= unknown || (!newly_opened.empty() && level_number + 1 >= tree.levels.size()))
+      numbers.all += level.weighed[i].children;
+      if (level.first_children[i] == unknown) numbers.unknown += level.weighed[i].children;
+    };
+    const auto before = before_stretches<ChildNumbers>(walk.reached.size(), count);
+    const std::size_t known_before = next.items.size();
+    const std::size_t newly_known = before.back().unknown, known = known_before + newly_known;
+    if (known >= unknown || (newly_known > 0 && level_number + 1 >= tree.levels.size()))
       refuse_damaged();
     if (known_before == 0) make_room(next, known);
     next.items.resize(known);
     next.weighed.resize(known);
-    next.first_children.resize(known, unknown);
-    for_blocks(newly_opened.size(), 512, [&](std::size_t first, std::size_t last) {
-      for (std::size_t n = first; n < last; ++n)
-        look_at_children(walk, level_number, newly_opened[n]);
+    next.first_children.resize(known);
+    LargeVector<std::uint32_t> children(before.back().all);
+    for_blocks(walk.reached.size(), stretch, [&](std::size_t first, std::size_t last) {
+      ChildNumbers at = before[first / stretch];
+      for (std::size_t r = first; r < last; ++r) {
+        const std::uint32_t i = walk.reached[r];
+        if (walk.is_opened[r] == 0 || level.weighed[i].children == 0) continue;
+        const ChildNumbers was = at;
+        count(r, at);
+        if (at.unknown > was.unknown) {
+          level.first_children[i] = static_cast<std::uint32_t>(known_before + was.unknown);
+          look_at_children(walk, level_number, i);
+        }
+        std::iota(children.begin() + static_cast<std::ptrdiff_t>(was.all),
+                  children.begin() + static_cast<std::ptrdiff_t>(at.all), level.first_children[i]);
+      }
     });
-    visited_ += known - known_before;
+    visited_ += newly_known;
     constexpr std::uint64_t flags = 2;  // of children and loose particles
-    bytes_ += (known - known_before) *
-              (sizeof(TreeNode) + flags + tree.fields.size() * sizeof(SampledField));
+    bytes_ += newly_known * (sizeof(TreeNode) + flags + tree.fields.size() * sizeof(SampledField));
     walk.reached = std::move(children);
   }
 
@@ -273,6 +335,7 @@ class Cutter {
       for (std::size_t axis = 0; axis < 3; ++axis)
         looked_at.cell[axis] = 2 * item.cell[axis] + (octant >> axis & 1U);
       next.weighed[to] = weigher_.weigh(part, looked_at, level_number + 1);
+      next.first_children[to] = unknown;
       ++to;
     }
   }

@@ -19,6 +19,8 @@ struct CutSettings {
   int corrections = 2;
   // Nodes and particles are counted, where their places lie in the regions, and not drawn.
   bool only_counts = false;
+  // Which part of the error nodes of each block of the crop may take; none: all of it.
+  BlockErrors parts_of_error = {};
 };
 
 // A frame in which nodes stand for particles where they err by little enough.

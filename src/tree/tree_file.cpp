@@ -179,7 +179,7 @@ void write_column(const Column& column, std::size_t width, const TreeOfType& tre
   constexpr std::uint64_t at_once = std::uint64_t{1} << 22;
   for (std::uint64_t first = 0; first < tree.order_count; first += at_once) {
     const std::uint64_t last = std::min(tree.order_count, first + at_once);
-    const std::vector<std::uint64_t> places(tree.order + first, tree.order + last);
+    const Places places(tree.order + first, tree.order + last);
     Column values = picked_column(column, width, places, run_on_all_cores);
     if (!values.is_array())
       values = Column::owning(std::vector<float>(width * places.size(), values[0]));

@@ -28,10 +28,11 @@ struct TreePart {
 // Of all components that a tree serves. The frame has to stay.
 std::vector<TreePart> tree_parts(const Frame& frame);
 
-// A node of a tree that is looked at, and its cell along each axis.
+// A node of a tree that is looked at, and its cell along each axis. Unset at first, as there are
+// many.
 struct TreeItem {
-  std::uint32_t node = 0;
-  std::array<std::uint32_t, 3> cell{};
+  std::uint32_t node;
+  std::array<std::uint32_t, 3> cell;
 };
 
 // Where it is drawn; nothing where members that reach so far are drawn at different images.

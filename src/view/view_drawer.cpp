@@ -29,9 +29,9 @@ namespace splotchcl::view {
 namespace {
 
 // One of each of `count` equal runs, chosen at random from it.
-std::vector<std::uint64_t> choose(std::size_t all, std::size_t count) {
+Places choose(std::size_t all, std::size_t count) {
   constexpr std::uint64_t seed = 1;
-  std::vector<std::uint64_t> chosen(count);
+  Places chosen(count);
   const double run = static_cast<double>(all) / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i) {
     const auto first = static_cast<std::size_t>(static_cast<double>(i) * run);

@@ -74,7 +74,7 @@ TEST(PickedParticles, AreReadTogetherWhereTheyLieCloseTogether) {
   std::iota(values.begin(), values.end(), 0.0f);
   const auto weights = std::make_shared<const CountedColumn>(Column::owning(values));
   particles.weight = Column::made_by(weights);
-  std::vector<std::uint64_t> places;
+  Places places;
   for (std::uint64_t i = 0; i < 40; ++i)
     places.push_back(500 + (7 * i) % 41);
   places.insert(places.end(), {count - 1, 0, count / 2});

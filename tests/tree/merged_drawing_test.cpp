@@ -164,7 +164,7 @@ TEST_F(MergedDrawings, DrawPeriodicImagesNearestToACenter) {
 Frame random_part(Frame frame, std::size_t count) {
   DrawnComponent& component = frame.components.front();
   const std::size_t all = component.particles.count;
-  std::vector<std::uint64_t> places(all);
+  Places places(all);
   std::iota(places.begin(), places.end(), 0);
   std::shuffle(places.begin(), places.end(), std::mt19937_64(1));
   places.resize(count);
@@ -235,6 +235,20 @@ TEST_F(MergedDrawings, ChangeAlongAFlightAsParticlesDoWithinTheTolerance) {
   }
 }
 
+TEST_F(MergedDrawings, AreNotBegunWhereTheyHaveToPayAndWouldNot) {
+  const Matter matter = clumps(3000, 22);
+  Frame frame = frame_of(matter, 40, 30);
+  frame.tolerance = 1e-3;
+  plant(frame, tree_of(matter));
+  int drawings = 0;
+  const auto count = [&drawings](const Frame& part) {
+    ++drawings;
+    return draw(part);
+  };
+  EXPECT_FALSE(draw_merged(frame, count, true));
+  EXPECT_EQ(drawings, 0);
+}
+
 TEST(TreeCut, OpensAllToParticlesWhereNothingMayErr) {
   const Matter matter = clumps(3000, 23);
   Frame frame = frame_of(matter, 40, 30);
@@ -259,6 +273,22 @@ TEST(TreeCut, IsTheSameOnAnyNumberOfThreads) {
   for (std::size_t i = 0; i < one.nodes; ++i) {
     ASSERT_EQ(one.frame.components[0].particles.smoothing_length[i],
               other.frame.components[0].particles.smoothing_length[i]);
+  }
+}
+
+// Else the squares that are verified would all lie at the picture's edges.
+TEST(TreeCut, CountsNothingBesideTheCropAmongWhatErrsAlikeWithin) {
+  const Matter matter = clumps(60000, 26);
+  Frame whole = frame_of(matter, 96, 96);
+  whole.tolerance = 1e-2;
+  plant(whole, tree_of(matter));
+  Frame part = whole;
+  part.crop = {32, 32, 32, 32};
+  const BlockErrors of_whole = cut_tree(whole, {1e-2, {}, 2}).alike;
+  const BlockErrors of_part = cut_tree(part, {1e-2, {}, 2}).alike;
+  for (const int y : {0, 16}) {
+    for (const int x : {0, 16})
+      EXPECT_LE(of_part.at(x, y), 1.5f * of_whole.at(x + 32, y + 32)) << x << ", " << y;
   }
 }
 

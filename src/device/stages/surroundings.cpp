@@ -184,7 +184,8 @@ std::vector<Surroundings::Found> Surroundings::list(const ChunkBlocks& blocks,
 void Surroundings::append(std::uint32_t c, const std::vector<Found>& found,
                           std::vector<CloudAround>& clouds) const {
   const Frame& frame = context_.frame;
-  std::vector<std::uint64_t> places, keys;
+  Places places;
+  std::vector<std::uint64_t> keys;
   for (const Found& one : found) {
     if (one.key >= end_of_keys) continue;  // beyond the limits that the scene sets
     places.push_back(one.particle);

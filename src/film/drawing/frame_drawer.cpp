@@ -174,8 +174,9 @@ struct FrameDrawer::State {
   Image draw_view(const Frame& view, DrawnFrame& drawn) {
     if (!renderer.valid()) return draw_with_reference(view, drawn.stats);
     if (draws_tree(view)) {
-      if (auto merged =
-              draw_merged(view, [&](const Frame& f) { return draw_alone(f, drawn.stats); })) {
+      if (auto merged = draw_merged(
+              view, [&](const Frame& f) { return draw_alone(f, drawn.stats); },
+              tree == TreeUse::automatic)) {
         add(*merged, drawn.tree);
         drawn.notes.emplace_back(
             "drawn from the tree of merged particles: its tolerance is an estimate, checked on "
@@ -183,9 +184,8 @@ struct FrameDrawer::State {
         return std::move(merged->image);
       }
       drawn.notes.push_back(
-          "the tree of merged particles does not serve this picture: blocks of it that were drawn "
-          "again differ by too much of the tolerance, and finer nodes would be a quarter of all "
-          "particles or more; the particles were drawn");
+          "the tree of merged particles does not serve this picture: so many nodes that it keeps "
+          "its tolerance would take longer than all particles, which were drawn");
     }
     return draw_alone(view, drawn.stats);
   }
