@@ -155,18 +155,31 @@ std::vector<double> verify(const Frame& frame, CutSettings settings,
   return differences;
 }
 
-// Of blocks where nodes would err by as much as in a region that failed, if they erred alike.
+// Of the blocks of regions that failed, and of those where nodes would err by as much as there, if
+// they erred alike.
 void take_smaller_part(const Frame& frame, const BlockErrors& alike,
                        const std::vector<Rectangle>& regions,
                        const std::vector<double>& differences, double found, BlockErrors& parts) {
   float least = std::numeric_limits<float>::infinity();
+  std::vector<Rectangle> failed;
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    if (differences[r] > most_found)
-      least = std::min(least, largest_alike(regions[r], frame.crop, alike));
+    if (differences[r] <= most_found) continue;
+    least = std::min(least, largest_alike(regions[r], frame.crop, alike));
+    failed.push_back(regions[r]);
   }
-  for (std::size_t block = 0; block < parts.errors.size(); ++block) {
-    if (alike.errors[block] >= least)
-      parts.errors[block] *= static_cast<float>(std::max(0.2, 0.5 / found));
+  constexpr int side = BlockErrors::block_pixels;
+  for (int row = 0; row < parts.rows; ++row) {
+    for (int column = 0; column < parts.columns; ++column) {
+      const int x = frame.crop.x + side * column, y = frame.crop.y + side * row;
+      const bool has_failed =
+          std::any_of(failed.begin(), failed.end(), [x, y](const Rectangle& region) {
+            return x >= region.x && x < region.x + region.width && y >= region.y &&
+                   y < region.y + region.height;
+          });
+      const auto block = static_cast<std::size_t>(row * parts.columns + column);
+      if (has_failed || alike.errors[block] >= least)
+        parts.errors[block] *= static_cast<float>(std::max(0.2, 0.5 / found));
+    }
   }
 }
 

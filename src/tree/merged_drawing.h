@@ -36,10 +36,10 @@ std::string explain_tree(const Frame& frame);
 
 // Draws a frame with nodes in place of particles (tree_cut.h), so that nodes take seven tenths of
 // its tolerance. A share of the picture's blocks, those where nodes might err alike and others, is
-// drawn again from a finer cut; where they differ by more than two thirds of the tolerance the
-// whole is, from a finer one: the finer cut may err by a quarter as much the same way. Nothing
-// where that does not help, or, where it has to pay, would take longer than the particles: they
-// have to be drawn.
+// drawn again from a finer cut. Where they differ by more than two thirds of the tolerance, they
+// and blocks like them are cut finer: the finer cut may err by a quarter as much the same way.
+// Nothing where that does not help, or, where it has to pay, would take longer than the particles:
+// they have to be drawn.
 std::optional<MergedDrawing> draw_merged(const Frame& frame,
                                          const std::function<Image(const Frame&)>& draw,
                                          bool has_to_pay = false);
