@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <new>
-#include <utility>
 #include <vector>
 
 #include "splotchcl/particles.h"
@@ -59,10 +58,6 @@ struct LargePageAllocator {
   template <class U>
   void construct(U* place) {
     ::new (static_cast<void*>(place)) U;
-  }
-  template <class U, class... Arguments>
-  void construct(U* place, Arguments&&... arguments) {
-    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
   }
   friend bool operator==(const LargePageAllocator&, const LargePageAllocator&) { return true; }
   friend bool operator!=(const LargePageAllocator&, const LargePageAllocator&) { return false; }

@@ -64,24 +64,18 @@ double variance_of(const WeighedNode& node, const ErrorCells& cells) {
   return static_cast<double>(node.error2) / (pixels * pixels);
 }
 
-NodeLimits::NodeLimits(double error, bool has_sums, const BlockErrors& parts,
-                       const ErrorCells& cells)
+NodeLimits::NodeLimits(double error, bool has_sums, const BlockErrors& parts, const Rectangle& crop)
     : error_(error), has_sums_(has_sums) {
-  for (int s = 0; s < cells.scales(); ++s)
-    parts_.emplace_back(cells.count(s), 1.0);
-  if (parts.errors.empty()) return;
+  ErrorCells cells(crop.width, crop.height);
   const int columns = cells.columns(0);
-  for (std::size_t cell = 0; cell < parts_[0].size(); ++cell) {
+  for (std::size_t cell = 0; cell < cells.count(0); ++cell) {
     const int x = static_cast<int>(cell) % columns, y = static_cast<int>(cell) / columns;
-    const float part = parts.at(ErrorCells::cell_pixels * x, ErrorCells::cell_pixels * y);
-    parts_[0][cell] = static_cast<double>(part);
+    const float part = parts.errors.empty()
+                           ? 1
+                           : parts.at(ErrorCells::cell_pixels * x, ErrorCells::cell_pixels * y);
+    cells.at(0, cell) = static_cast<double>(part);
   }
-  for (std::size_t s = 1; s < parts_.size(); ++s) {
-    for (std::size_t cell = 0; cell < parts_[s - 1].size(); ++cell) {
-      double& part = parts_[s][cells.parent(static_cast<int>(s) - 1, cell)];
-      part = std::min(part, parts_[s - 1][cell]);
-    }
-  }
+  parts_ = cells.least_totals();
 }
 
 double NodeLimits::promised(double light) const {

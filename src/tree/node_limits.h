@@ -14,7 +14,7 @@ class NodeLimits {
  public:
   // Six standard deviations of a pixel are to be at most `error`, over max(1, light / 2) where
   // light only adds up, or a part of that in each block; where there are none, all of it.
-  NodeLimits(double error, bool has_sums, const BlockErrors& parts, const ErrorCells& cells);
+  NodeLimits(double error, bool has_sums, const BlockErrors& parts, const Rectangle& crop);
 
   // Of all that is drawn, as far as it is known: what may be erred by follows from it, and until
   // correct() was called what a node may.

@@ -107,7 +107,7 @@ class Cutter {
         parts_(tree_parts(frame)),
         sums_(frame.crop),
         weigher_(frame, regions_, sums_.errors, settings.only_counts, settings.corrections > 0),
-        limits_(settings.error, has_sums(frame), settings.parts_of_error, sums_.errors),
+        limits_(settings.error, has_sums(frame), settings.parts_of_error, frame.crop),
         nodes_(frame.components.size(), 0),
         particles_(frame.components.size(), 0) {}
 
