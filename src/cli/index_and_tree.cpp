@@ -90,6 +90,7 @@ int run_tree(const TreeCommandOptions& options, Console& console) {
     trees.push_back(build_tree(source, of_tree, [&](double fraction) {
       console.progress(fmt::format("merging type {}", type), fraction);
     }));
+    trees.back().sample = sample_to_keep(*snapshot, source);
     if (trees.back().bad > 0) {
       console.note(
           fmt::format("type {}: {} particles are not in the tree, since a value of theirs "

@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
 #include "load/component_fields.h"
 #include "load/missing_sizes.h"
+#include "load/passes.h"
 #include "load/placement.h"
+#include "parallel/for_blocks.h"
+#include "scene/ceil_divide.h"
+#include "scene/statistics.h"
 #include "snapshot/field_names.h"
 #include "snapshot/load_memory.h"
 
@@ -63,6 +68,65 @@ Particles particles_in_order(const std::vector<TreeOfComponent::Part>& parts, co
   return particles;
 }
 
+const TreeOfType* tree_of(const Snapshot& snapshot, int type) {
+  const std::optional<Trees>& trees = known_trees(snapshot);
+  if (!trees) return nullptr;
+  const auto found = std::find_if(trees->begin(), trees->end(),
+                                  [type](const auto& known) { return known->type == type; });
+  return found == trees->end() ? nullptr : found->get();
+}
+
+// Null where all particles have to be looked at; ranks do that together.
+const TreeOfType* tree_with_sample(const Snapshot& snapshot, int type) {
+  const TreeOfType* const tree = has_shared_passes(snapshot) ? nullptr : tree_of(snapshot, type);
+  if (tree == nullptr || !tree->sample) return nullptr;
+  const bool is_of_use =
+      tree->sample->stride == least_sample_stride(static_cast<std::size_t>(tree->count)) &&
+      tree->sample->origin == snapshot.position_origin();
+  return is_of_use ? tree : nullptr;
+}
+
+// Of a field that the sample has, or of positions.
+std::optional<Column> kept_values(const TreeOfType& tree, const std::string& field) {
+  const ParticleSample& sample = *tree.sample;
+  if (field == "position") return sample.particles.position;
+  if (const std::optional<int> number = field_of(tree, field))
+    return sample.particles.fields[static_cast<std::size_t>(*number)];
+  const auto& names = sample.other_names;
+  const auto other = std::find(names.begin(), names.end(), field);
+  if (other == names.end()) return std::nullopt;
+  return sample.others[static_cast<std::size_t>(other - names.begin())];
+}
+
+// None for several types, whose particles are sampled together.
+void take_sample(const Snapshot& snapshot, TreeOfComponent& tree) {
+  if (tree.parts.size() != 1) return;
+  const TreeOfComponent::Part& part = tree.parts.front();
+  if (tree_with_sample(snapshot, part.tree->type) == nullptr) return;
+  const ParticleSample& sample = *part.tree->sample;
+  const StoredParticles& stored = sample.particles;
+  const auto field = [&stored](int number) {
+    return number < 0 ? Column() : stored.fields[static_cast<std::size_t>(number)];
+  };
+  Particles& particles = tree.sample;
+  particles.count = stored.smoothing_length.size();
+  particles.origin = sample.origin;
+  particles.position = stored.position;
+  particles.smoothing_length = stored.smoothing_length;
+  particles.weight = stored.weight;
+  particles.color = field(part.color);
+  particles.intensity = field(part.intensity);
+  tree.sample_stride = sample.stride;
+}
+
+// In place of what they were, whose origin changes.
+void wrap_around(const Vec3& center, const BoxSides& periodic_box, Particles& particles) {
+  constexpr bool streams = true;  // only what is looked at is wrapped
+  particles.position =
+      wrapped_positions(Vec3(particles.origin - center), periodic_box, particles.position, streams);
+  particles.origin = center;
+}
+
 }  // namespace
 
 std::shared_ptr<const TreeOfComponent> component_tree(const Component& component,
@@ -90,6 +154,7 @@ std::shared_ptr<const TreeOfComponent> component_tree(const Component& component
     first_in_order += (*found)->order_count;
   }
   tree->in_order = particles_in_order(tree->parts, snapshot.position_origin());
+  take_sample(snapshot, *tree);
   return tree;
 }
 
@@ -99,12 +164,21 @@ std::shared_ptr<const TreeOfComponent> wrapped_tree(const TreeOfComponent& tree,
   wrapped->center = center;
   for (std::size_t axis = 0; axis < 3; ++axis)
     wrapped->period.a[axis] = periodic_box[axis];
-  Particles& in_order = wrapped->in_order;
-  constexpr bool streams = true;  // only what is looked at is wrapped
-  in_order.position =
-      wrapped_positions(Vec3(in_order.origin - center), periodic_box, in_order.position, streams);
-  in_order.origin = center;
+  wrap_around(center, periodic_box, wrapped->in_order);
+  wrap_around(center, periodic_box, wrapped->sample);
   return wrapped;
+}
+
+ValuesToSample values_to_sample(const Snapshot& snapshot, int type, const std::string& field) {
+  if (const TreeOfType* const tree = tree_with_sample(snapshot, type)) {
+    const ParticleSample& sample = *tree->sample;
+    const auto kept = kept_values(*tree, field);
+    if (kept) {
+      return {*kept, static_cast<std::size_t>(sample.stride),
+              ParticlePass(sample.particles.smoothing_length.size())};
+    }
+  }
+  return {snapshot.read(type, field), 1, pass_over(snapshot, type)};
 }
 
 bool has_tree(const Snapshot& snapshot) {
@@ -154,6 +228,52 @@ TreeSource tree_source(const Snapshot& snapshot, int type, const std::vector<std
   for (const std::string& field : fields)
     source.fields.push_back({field, particles.scalars(field, "--fields")});
   return source;
+}
+
+namespace {
+
+// Those that suggest_scene() looks at, and that are no tree's.
+std::vector<std::string> fields_to_sample(const Snapshot& snapshot, const TreeSource& source) {
+  static_assert(std::size(fields_of_suggestions) <= ParticleSample::most_others);
+  const ParticleTypeInfo& info = *snapshot.info().find_type(source.type);
+  std::vector<std::string> others;
+  for (const char* const name : fields_of_suggestions) {
+    const bool is_known = std::any_of(source.fields.begin(), source.fields.end(),
+                                      [name](const auto& field) { return field.name == name; });
+    const FieldInfo* const field = find_field(info, name);
+    if (!is_known && field != nullptr && field->values_per_particle == 1) others.emplace_back(name);
+  }
+  return others;
+}
+
+}  // namespace
+
+std::optional<ParticleSample> sample_to_keep(const Snapshot& snapshot, const TreeSource& source) {
+  // A sample of fewer would be more than a few per cent of their tree.
+  constexpr std::size_t least_stride = 64;
+  const auto count = static_cast<std::size_t>(source.count);
+  const std::size_t stride = least_sample_stride(count);
+  if (stride < least_stride) return std::nullopt;
+  Places places(ceil_divide(count, stride));
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = i * stride;
+  const auto picked = [&places](const Column& column, std::size_t width) {
+    return picked_column(column, width, places, run_on_all_cores);
+  };
+  ParticleSample sample;
+  sample.stride = stride;
+  sample.origin = source.origin;
+  StoredParticles& particles = sample.particles;
+  particles.position = picked(source.position, 3);
+  particles.smoothing_length = picked(source.smoothing_length, 1);
+  particles.weight = picked(source.weights, 1);
+  for (const TreeSource::Field& field : source.fields)
+    particles.fields.push_back(picked(field.values, 1));
+  for (const std::string& name : fields_to_sample(snapshot, source)) {
+    sample.other_names.push_back(name);
+    sample.others.push_back(picked(snapshot.read(source.type, name), 1));
+  }
+  return sample;
 }
 
 }  // namespace splotchcl

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/particle_columns.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene.h"
 #include "splotchcl/snapshot.h"
@@ -26,6 +27,20 @@ std::shared_ptr<const TreeOfComponent> component_tree(const Component& component
 std::shared_ptr<const TreeOfComponent> wrapped_tree(const TreeOfComponent& tree, const Vec3& center,
                                                     const BoxSides& periodic_box);
 
+// Fields whose ranges decide what suggest_scene() draws: a tree keeps a sample of them.
+constexpr const char* fields_of_suggestions[] = {"density", "temperature", "internal_energy",
+                                                 "stellar_age"};
+
+// Values of a type's field, or positions, of which a sample is looked at: every `stride`-th
+// particle's, with a pass over these. They lie in the tree beside a snapshot of many particles,
+// else they are those of all.
+struct ValuesToSample {
+  Column values;
+  std::size_t stride;
+  ParticlePass pass;
+};
+ValuesToSample values_to_sample(const Snapshot& snapshot, int type, const std::string& field);
+
 // Whether there is one beside the snapshot, or one has been given.
 bool has_tree(const Snapshot& snapshot);
 // Trees that were made of the snapshot's particles in memory take the place of those beside it.
@@ -41,5 +56,7 @@ std::vector<std::string> fields_shown(const Scene& scene, int type);
 // where these are known, and the fields of these names. Throws as loading a component does.
 TreeSource tree_source(const Snapshot& snapshot, int type, const std::vector<std::string>& fields,
                        std::vector<std::string>& notes, const LoadProgress& progress);
+// What the tree of many particles keeps of them, in memory; of fewer nothing.
+std::optional<ParticleSample> sample_to_keep(const Snapshot& snapshot, const TreeSource& source);
 
 }  // namespace splotchcl

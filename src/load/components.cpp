@@ -101,6 +101,14 @@ const Column& ComponentReader::intensity() {
   return read_once(intensity_, component_.intensity.field, "intensity.field");
 }
 
+const std::shared_ptr<const TreeOfComponent>& ComponentReader::tree(WeightModel weight) {
+  if (!tree_) {
+    select();
+    tree_ = fields_.tree(weight);
+  }
+  return *tree_;
+}
+
 Column ComponentReader::weights(WeightModel weight) const {
   switch (weight) {
     case WeightModel::mass:
@@ -135,7 +143,7 @@ DrawnComponent ComponentReader::drawn(WeightModel weight) {
   particles.smoothing_length = fields_.smoothing_lengths();
   particles.weight = fields_.with_factors(weights(weight));
   particles.boxes = fields_.boxes();
-  particles.tree = fields_.tree(weight);
+  particles.tree = tree(weight);
   particles.color = color();
   if (!component_.color_vector.empty()) {
     particles.color_vector = fields_.vectors(component_.color_vector, "color.vector");

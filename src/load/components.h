@@ -42,6 +42,8 @@ class ComponentReader {
   // One value per particle; absent where the component names no field.
   const Column& color();
   const Column& intensity();
+  // As ComponentFields has it, for weight().
+  const std::shared_ptr<const TreeOfComponent>& tree(WeightModel weight);
   // The component with all of its particles, but for ranges and the reference column.
   DrawnComponent drawn(WeightModel weight);
   // The same without its particles, of which nothing is read.
@@ -57,6 +59,7 @@ class ComponentReader {
   ComponentFields& fields_;
   bool is_selected_ = false;
   std::optional<Column> color_, intensity_;
+  std::optional<std::shared_ptr<const TreeOfComponent>> tree_;
 };
 
 // The components of a scene with their snapshots. Refuses whatever can be refused before any

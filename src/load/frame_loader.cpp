@@ -14,8 +14,8 @@
 #include "finish/finish_picture.h"
 #include "image/image_library.h"
 #include "load/component_fields.h"
+#include "load/component_tree.h"
 #include "load/components.h"
-#include "load/passes.h"
 #include "load/placement.h"
 #include "load/suggest_camera.h"
 #include "scene/memory_advice.h"
@@ -71,14 +71,14 @@ double width_at(double value) {
 }
 
 // Limits from the data, which must leave room for a limit that the scene gives.
-ValueRange range_from_data(const Column& column, const FieldMap& map,
+ValueRange range_from_data(const ValuesToSample& data, const FieldMap& map,
                            const ComponentFields& fields) {
   std::optional<ValueRange> bulk;
   if (map.percentiles) {
-    bulk = percentile_range(column, map.scaling, (*map.percentiles)[0], (*map.percentiles)[1],
-                            fields.pass());
+    bulk = percentile_range(data.values, map.scaling, (*map.percentiles)[0], (*map.percentiles)[1],
+                            data.pass);
   } else {
-    bulk = bulk_range(column, map.scaling, fields.pass());
+    bulk = bulk_range(data.values, map.scaling, data.pass);
   }
   if (!bulk && fields.count() == 0) return {0, 1};
   if (!bulk) {
@@ -98,7 +98,7 @@ ValueRange range_from_data(const Column& column, const FieldMap& map,
 // A field's way to [0, 1] with the limits that the scene leaves to the data; any where it names no
 // field. `read` gives the field's values, and is called only where a limit is left to them. `key`
 // names it in messages: "color". Throws UsageError for a limit that its scaling has no value for.
-ScalarMap decide_map(const FieldMap& map, const std::function<Column()>& read,
+ScalarMap decide_map(const FieldMap& map, const std::function<ValuesToSample()>& read,
                      const ComponentFields& fields, const std::string& key) {
   ScalarMap decided;
   if (map.field.empty()) return decided;
@@ -121,6 +121,23 @@ ScalarMap decide_map(const FieldMap& map, const std::function<Column()>& read,
     decided.minimum = decided.maximum - width_at(decided.maximum);
   }
   return decided;
+}
+
+// All values count where the smallest or largest of them is a limit.
+bool is_sampled(const FieldMap& map) {
+  return !map.percentiles || ((*map.percentiles)[0] > 0 && (*map.percentiles)[1] < 100);
+}
+
+// Of a component's color or intensity; `all` reads those of all particles.
+ValuesToSample values_to_sample(ComponentReader& reader, WeightModel weight, const FieldMap& map,
+                                Column Particles::*column, const std::function<Column()>& all) {
+  const auto tree = is_sampled(map) ? reader.tree(weight) : nullptr;
+  if (!tree || tree->sample.count == 0) {
+    const Column values = all();
+    return {values, 1, reader.fields().pass()};
+  }
+  return {tree->sample.*column, static_cast<std::size_t>(tree->sample_stride),
+          ParticlePass(tree->sample.count)};
 }
 
 // Those that lie where the scene's snapshot has them.
@@ -242,8 +259,12 @@ void FrameLoader::decide_reference(Part& part, const Camera& camera, const Frame
   DrawnComponent drawn = read(part, decided.weight, camera.look_at);
   drawn.color = decided.color;
   drawn.intensity = decided.intensity;
-  const std::optional<double> reference =
-      find_reference_column(drawn, frame, part.reader.fields().pass());
+  const auto tree = drawn.particles.tree;
+  const bool has_sample = tree && tree->sample.count > 0;
+  if (has_sample) drawn.particles = tree->sample;
+  const std::optional<double> reference = find_reference_column(
+      drawn, frame, has_sample ? ParticlePass(drawn.particles.count) : part.reader.fields().pass(),
+      has_sample ? static_cast<std::size_t>(tree->sample_stride) : 1);
   if (!reference && drawn.particles.count > 0) {
     notes_.push_back(
         fmt::format("component {}: the camera sees none of its particles; check camera.position, "
@@ -263,10 +284,16 @@ DecidedComponent FrameLoader::decide_component(Part& part, const Camera& camera,
   decided.particles_per_drawn = reader.fields().particles_per_drawn();
   // The reference needs all that ranges do.
   if (!component.reference_column) read(part, decided.weight, camera.look_at);
-  decided.color = decide_map(
-      component.color, [&reader] { return reader.color(); }, reader.fields(), "color");
-  decided.intensity = decide_map(
-      component.intensity, [&reader] { return reader.intensity(); }, reader.fields(), "intensity");
+  const auto color = [&] {
+    return values_to_sample(reader, decided.weight, component.color, &Particles::color,
+                            [&reader] { return reader.color(); });
+  };
+  const auto intensity = [&] {
+    return values_to_sample(reader, decided.weight, component.intensity, &Particles::intensity,
+                            [&reader] { return reader.intensity(); });
+  };
+  decided.color = decide_map(component.color, color, reader.fields(), "color");
+  decided.intensity = decide_map(component.intensity, intensity, reader.fields(), "intensity");
   decided.has_particles = !reader.has_read() || reader.count() > 0;
   decide_reference(part, camera, frame, decided);
   return decided;

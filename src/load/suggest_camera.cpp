@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "load/passes.h"
+#include "load/component_tree.h"
 #include "scene/constants.h"
 #include "scene/particle_columns.h"
 #include "scene/particle_rules.h"
@@ -37,15 +37,16 @@ using Sample = std::array<std::vector<double>, 3>;
 
 void sample_type(const Snapshot& snapshot, int type, std::size_t stride, Sample& sample) {
   using Place = std::array<float, 3>;
-  const Column position = snapshot.read(type, "position");
+  const auto [position, known_stride, pass] = values_to_sample(snapshot, type, "position");
   const Vec3 origin = snapshot.position_origin();
-  const auto look = [&](const ParticleRun& run, std::vector<Place>& places) {
-    for (std::size_t i = first_sampled(run, stride); i < run.end; i += stride) {
+  const auto look = [&, &position = position, step = stride / known_stride](
+                        const ParticleRun& run, std::vector<Place>& places) {
+    for (std::size_t i = first_sampled(run, step); i < run.end; i += step) {
       const Place place = {position[3 * i], position[3 * i + 1], position[3 * i + 2]};
       if (is_finite_position(place.data())) places.push_back(place);
     }
   };
-  for (const Place& place : pass_over(snapshot, type).collect<Place>(look)) {
+  for (const Place& place : pass.collect<Place>(look)) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       sample[axis].push_back(origin.a[axis] + static_cast<double>(place[axis]));
   }
@@ -59,8 +60,12 @@ Sample sample_positions(const Snapshot& snapshot, const std::vector<int>& types)
   }
   Sample sample;
   for (const int type : types) {
-    if (snapshot.info().find_type(type) == nullptr) continue;
-    sample_type(snapshot, type, sample_stride(count, position_limit), sample);
+    const ParticleTypeInfo* const info = snapshot.info().find_type(type);
+    if (info == nullptr) continue;
+    // All of a type's largest sample.
+    const std::size_t least = least_sample_stride(static_cast<std::size_t>(info->count));
+    const std::size_t stride = ceil_divide(sample_stride(count, position_limit), least) * least;
+    sample_type(snapshot, type, stride, sample);
   }
   if (sample[0].empty()) {
     throw DataError(fmt::format(

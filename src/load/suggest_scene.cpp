@@ -6,6 +6,7 @@
 #include <initializer_list>
 
 #include "common/words.h"
+#include "load/component_tree.h"
 #include "load/passes.h"
 #include "load/press_look.h"
 #include "load/suggest_camera.h"
@@ -69,8 +70,8 @@ std::optional<FieldMap> varying_field(const Snapshot& snapshot, const ParticleTy
                                       const std::string& field, Scaling scaling) {
   const FieldInfo* const info = find_field(type, field);
   if (info == nullptr || info->values_per_particle != 1) return std::nullopt;
-  const auto range =
-      robust_range(snapshot.read(type.type, field), scaling, pass_over(snapshot, type.type));
+  const ValuesToSample sample = values_to_sample(snapshot, type.type, field);
+  const auto range = robust_range(sample.values, scaling, sample.pass);
   if (!range) return std::nullopt;
   const double scale = scaling == Scaling::log ? 1.0 : std::abs(range->maximum);
   if (!(range->maximum - range->minimum > smallest_span * scale)) return std::nullopt;

@@ -14,7 +14,6 @@
 namespace splotchcl {
 namespace {
 
-constexpr std::size_t sample_limit = 2000000;
 constexpr double left_out_at_each_end = 0.005;
 
 // One value for all is nobody's own.
@@ -56,7 +55,7 @@ double percentile(std::vector<double>& values, double fraction) {
 }
 
 std::vector<double> sample_scaled(const Column& column, Scaling scaling, const ParticlePass& pass) {
-  const std::size_t stride = sample_stride(column.size(), sample_limit);
+  const std::size_t stride = least_sample_stride(column.size());
   return pass_over_values(column, pass)
       .collect<double>([&](const ParticleRun& run, std::vector<double>& values) {
         for (std::size_t i = first_sampled(run, stride); i < run.end; i += stride) {
@@ -244,7 +243,7 @@ std::vector<double> lit_pixels(std::vector<double> pixels) {
 }  // namespace
 
 std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame,
-                                            const ParticlePass& pass) {
+                                            const ParticlePass& pass, std::size_t stands_for) {
   const auto coarse = [&frame](int pixels) {
     return std::max(1, static_cast<int>(std::lround(coarse_scale(frame) * pixels)));
   };
@@ -254,7 +253,7 @@ std::optional<double> find_reference_column(const DrawnComponent& component, con
     for (std::size_t i = first_sampled(run, stride); i < run.end; i += stride) {
       std::optional<Cloud> cloud = cloud_of(component, frame, i);
       if (!cloud) continue;
-      cloud->column *= static_cast<double>(stride);  // for those that are passed over
+      cloud->column *= static_cast<double>(stands_for * stride);  // for those passed over
       clouds.push_back(*cloud);
     }
   };

@@ -18,10 +18,18 @@ struct ValueRange {
   double maximum = 0;
 };
 
-// Every `stride`-th of `count` things, so that at most `limit` are looked at: what is
-// found in the data is the same in every run.
+// The largest sample is every so many-th of `count` things: what is found in the data is the same
+// in every run.
+constexpr std::size_t most_sampled = 2000000;
+inline std::size_t least_sample_stride(std::size_t count) {
+  return count == 0 ? 1 : ceil_divide(count, most_sampled);
+}
+
+// Every so many-th, for `limit` of them at most: all of them of the largest sample, which a tree
+// keeps (src/tree/tree_file.h). `limit` is most_sampled at most.
 inline std::size_t sample_stride(std::size_t count, std::size_t limit) {
-  return count <= limit ? 1 : ceil_divide(count, limit);
+  const std::size_t least = least_sample_stride(count);
+  return count <= limit ? 1 : ceil_divide(ceil_divide(count, limit), least) * least;
 }
 
 // The first of every `stride`-th particle that lies in the run, or one behind it.
@@ -37,7 +45,7 @@ std::size_t sampled_index(std::size_t first, std::size_t stride, std::size_t cou
 // `values` must not be empty; their order is lost.
 double percentile(std::vector<double>& values, double fraction);
 
-// The scaled values that are finite, of at most 2 million evenly spaced in the column. Here and
+// The scaled values that are finite, of at most most_sampled evenly spaced in the column. Here and
 // below ranks share the pass over the column's particles, each of which has one value; without it
 // this process looks at all.
 std::vector<double> sample_scaled(const Column& column, Scaling scaling, const ParticlePass& pass);
@@ -57,9 +65,9 @@ std::optional<ValueRange> percentile_range(const Column& column, Scaling scaling
 // The column of matter that should count as 1 so that brightness 1 is a good picture of
 // this component, whatever the units of its masses and lengths. Nothing when the camera
 // sees none of its particles. `component.reference_column` itself is not looked at. Ranks share the
-// pass over its particles; without it this process looks at all.
+// pass over its particles, each of which stands for so many; without it this process looks at all.
 std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame,
-                                            const ParticlePass& pass);
+                                            const ParticlePass& pass, std::size_t stands_for = 1);
 std::optional<double> find_reference_column(const DrawnComponent& component, const Frame& frame);
 
 // Minimum, maximum and mean are of the finite values; 0 where there are none.

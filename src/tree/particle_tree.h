@@ -55,10 +55,23 @@ struct TreeLevel {
   std::uint64_t first_loose_particle(std::uint64_t node) const;
 };
 
-// Values of loose particles as the snapshot has them, in the tree's order.
-struct LooseParticles {
+// Values of particles as the snapshot has them; of fields those of the tree.
+struct StoredParticles {
   Column position, smoothing_length, weight;
   std::vector<Column> fields;
+};
+
+// Every `stride`-th particle of the snapshot. What follows from a sample of all particles, such as
+// ranges and the camera, is found here without a look at the snapshot, which may be larger than
+// memory.
+struct ParticleSample {
+  std::uint64_t stride = 1;
+  Vec3 origin = {{0, 0, 0}};  // of the positions
+  StoredParticles particles;
+  std::vector<std::string> other_names;  // of fields that are no tree's: most_others at most
+  std::vector<Column> others;
+
+  static constexpr std::size_t most_others = 4;
 };
 
 struct TreeOfType {
@@ -74,8 +87,9 @@ struct TreeOfType {
   std::vector<TreeLevel> levels;         // from the root on, which is one node; empty: no particles
   const std::uint32_t* order = nullptr;  // of loose particles: their places in the snapshot
   std::uint64_t order_count = 0;
-  std::optional<LooseParticles> particles;  // unset: they stay in the snapshot; else no `order`
-  std::shared_ptr<const void> owner;        // of all memory
+  std::optional<StoredParticles> particles;  // loose; unset: in the snapshot; else no `order`
+  std::optional<ParticleSample> sample;      // unset: of few particles
+  std::shared_ptr<const void> owner;         // of all memory
 
   std::uint64_t node_count() const;
 };
@@ -94,6 +108,9 @@ class TreeOfComponent {
   Vec3 period = {{0, 0, 0}}, center = {{0, 0, 0}};
   // Loose particles of all parts; none: they are taken from among the component's.
   Particles in_order;
+  // Every sample_stride-th particle of the component; none: they have to be looked at.
+  Particles sample;
+  std::uint64_t sample_stride = 1;
 };
 
 }  // namespace splotchcl

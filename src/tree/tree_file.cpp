@@ -26,11 +26,12 @@ namespace {
 // type its sections, each from a multiple of 64 bytes on; last the checksums of chunks of all that
 // comes before, and theirs.
 constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
-                           'l', ' ', 't', ' ', '3', '\n', 0,   0};
-// Of trees without nodes of the rest, and without a place for particles, which are made anew.
+                           'l', ' ', 't', ' ', '4', '\n', 0,   0};
+// Of trees without nodes of the rest, a place for particles, and a sample; they are made anew.
 constexpr FileMark older_marks[] = {
     {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '1', '\n', 0, 0},
-    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '2', '\n', 0, 0}};
+    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '2', '\n', 0, 0},
+    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '3', '\n', 0, 0}};
 constexpr std::uint64_t alignment = 64, chunk_bytes = 1U << 20,
                         most_checked_bytes = std::uint64_t{1} << 30;
 constexpr std::size_t name_bytes = 64;
@@ -39,23 +40,22 @@ struct FileHeader {
   FileMark mark;
   std::uint64_t key, types, bytes;  // of all but the checksums
 };
-// What a tree has of its loose particles.
-enum class Loose : std::uint64_t {
-  in_snapshot,  // their order alone
-  without_weights,
-  of_one_weight,
-  with_weights
-};
+// What the file has of particles.
+enum class Stored : std::uint64_t { nothing, without_weights, of_one_weight, with_weights };
 struct TypeHeader {
   std::int64_t type;
   std::uint64_t count, bad, weight, fields, levels, order_count;
-  Loose loose;
+  Stored loose;   // nothing: their order alone
+  Stored sample;  // with others; nothing: of few particles
+  std::uint64_t sample_stride, others;
   double weight_of_all;
   double origin[3], side;
+  double sample_weight_of_all, sample_origin[3];
   std::uint64_t nodes[TreeOfType::levels_at_most];
   char names[most_fields][name_bytes];
+  char other_names[ParticleSample::most_others][name_bytes];
 };
-static_assert(sizeof(FileHeader) == 40 && sizeof(TypeHeader) == 536);
+static_assert(sizeof(FileHeader) == 40 && sizeof(TypeHeader) == 848);
 
 std::uint64_t key_of(const SnapshotInfo& info) {
   WordHash hash = hash_of_files(info);
@@ -80,20 +80,49 @@ std::array<std::uint64_t, 6> section_bytes(std::uint64_t nodes, std::uint64_t fi
           groups * sizeof(std::uint64_t), groups * sizeof(std::uint64_t)};
 }
 
-// The order, or the columns of particles in it.
-std::vector<std::uint64_t> loose_bytes(const TypeHeader& header) {
-  const std::uint64_t column = header.order_count * sizeof(float);
-  static_assert(sizeof(float) == sizeof(std::uint32_t));
-  if (header.loose == Loose::in_snapshot) return {column};
+// Columns of so many particles.
+std::vector<std::uint64_t> stored_bytes(Stored stored, std::uint64_t count, std::uint64_t fields) {
+  if (stored == Stored::nothing) return {};
+  const std::uint64_t column = count * sizeof(float);
   std::vector<std::uint64_t> sections = {3 * column, column};
-  if (header.loose == Loose::with_weights) sections.push_back(column);
-  sections.insert(sections.end(), header.fields, column);
+  if (stored == Stored::with_weights) sections.push_back(column);
+  sections.insert(sections.end(), fields, column);
   return sections;
 }
 
-Loose loose_of(const TreeSource& source) {
-  if (source.weights.is_absent()) return Loose::without_weights;
-  return source.weights.is_uniform() ? Loose::of_one_weight : Loose::with_weights;
+std::uint64_t sampled_count(const TypeHeader& header) {
+  return header.sample == Stored::nothing ? 0 : ceil_divide(header.count, header.sample_stride);
+}
+
+// The order, or the columns of particles in it, and those of the sample.
+std::vector<std::uint64_t> particle_bytes(const TypeHeader& header) {
+  std::vector<std::uint64_t> sections =
+      stored_bytes(header.loose, header.order_count, header.fields);
+  if (sections.empty()) sections.push_back(header.order_count * sizeof(std::uint32_t));
+  const auto of_sample =
+      stored_bytes(header.sample, sampled_count(header), header.fields + header.others);
+  sections.insert(sections.end(), of_sample.begin(), of_sample.end());
+  return sections;
+}
+
+Stored stored_with(const Column& weights) {
+  if (weights.is_absent()) return Stored::without_weights;
+  return weights.is_uniform() ? Stored::of_one_weight : Stored::with_weights;
+}
+
+void copy_name(const std::string& name, char* to) {
+  name.copy(to, name_bytes - 1);
+}
+
+void take_sample(const ParticleSample& sample, TypeHeader& header) {
+  const Column& weights = sample.particles.weight;
+  header.sample = stored_with(weights);
+  header.sample_weight_of_all = static_cast<double>(weights.uniform_value());
+  header.sample_stride = sample.stride;
+  std::copy(sample.origin.a, sample.origin.a + 3, header.sample_origin);
+  header.others = sample.others.size();
+  for (std::size_t f = 0; f < sample.others.size(); ++f)
+    copy_name(sample.other_names[f], header.other_names[f]);
 }
 
 TypeHeader header_of(const TreeOfType& tree, const TreeSource* particles) {
@@ -106,16 +135,17 @@ TypeHeader header_of(const TreeOfType& tree, const TreeSource* particles) {
   header.levels = tree.levels.size();
   header.order_count = tree.order_count;
   if (particles != nullptr) {
-    header.loose = loose_of(*particles);
+    header.loose = stored_with(particles->weights);
     header.weight_of_all = static_cast<double>(particles->weights.uniform_value());
   }
+  if (tree.sample) take_sample(*tree.sample, header);
   for (std::size_t axis = 0; axis < 3; ++axis)
     header.origin[axis] = tree.origin.a[axis];
   header.side = tree.side;
   for (std::size_t l = 0; l < tree.levels.size(); ++l)
     header.nodes[l] = tree.levels[l].count;
   for (std::size_t f = 0; f < tree.fields.size(); ++f)
-    tree.fields[f].copy(header.names[f], name_bytes - 1);
+    copy_name(tree.fields[f], header.names[f]);
   return header;
 }
 
@@ -167,10 +197,19 @@ std::uint64_t file_bytes(const std::vector<TypeHeader>& headers) {
       for (const std::uint64_t section : section_bytes(header.nodes[l], header.fields))
         bytes += padded(section);
     }
-    for (const std::uint64_t section : loose_bytes(header))
+    for (const std::uint64_t section : particle_bytes(header))
       bytes += padded(section);
   }
   return bytes;
+}
+
+void write_values(const Column& values, std::size_t count, CheckedWriter& writer) {
+  if (values.is_array()) {
+    writer.write(values.data(), count * sizeof(float));
+  } else {
+    const std::vector<float> same(count, values[0]);
+    writer.write(same.data(), count * sizeof(float));
+  }
 }
 
 // Values of the tree's loose particles, in its order.
@@ -180,10 +219,8 @@ void write_column(const Column& column, std::size_t width, const TreeOfType& tre
   for (std::uint64_t first = 0; first < tree.order_count; first += at_once) {
     const std::uint64_t last = std::min(tree.order_count, first + at_once);
     const Places places(tree.order + first, tree.order + last);
-    Column values = picked_column(column, width, places, run_on_all_cores);
-    if (!values.is_array())
-      values = Column::owning(std::vector<float>(width * places.size(), values[0]));
-    writer.write(values.data(), values.size() * sizeof(float));
+    write_values(picked_column(column, width, places, run_on_all_cores), width * places.size(),
+                 writer);
   }
   writer.pad();
 }
@@ -191,9 +228,26 @@ void write_column(const Column& column, std::size_t width, const TreeOfType& tre
 void write_particles(const TreeSource& source, const TreeOfType& tree, CheckedWriter& writer) {
   write_column(source.position, 3, tree, writer);
   write_column(source.smoothing_length, 1, tree, writer);
-  if (loose_of(source) == Loose::with_weights) write_column(source.weights, 1, tree, writer);
+  if (stored_with(source.weights) == Stored::with_weights)
+    write_column(source.weights, 1, tree, writer);
   for (const TreeSource::Field& field : source.fields)
     write_column(field.values, 1, tree, writer);
+}
+
+void write_sample(const ParticleSample& sample, CheckedWriter& writer) {
+  const StoredParticles& particles = sample.particles;
+  const std::size_t count = particles.smoothing_length.size();
+  const auto write = [&](const Column& column, std::size_t width) {
+    write_values(column, width * count, writer);
+    writer.pad();
+  };
+  write(particles.position, 3);
+  write(particles.smoothing_length, 1);
+  if (stored_with(particles.weight) == Stored::with_weights) write(particles.weight, 1);
+  for (const std::vector<Column>* const columns : {&particles.fields, &sample.others}) {
+    for (const Column& column : *columns)
+      write(column, 1);
+  }
 }
 
 void write_sections(const TreeOfType& tree, const TreeSource* particles, CheckedWriter& writer) {
@@ -208,10 +262,11 @@ void write_sections(const TreeOfType& tree, const TreeSource* particles, Checked
   }
   if (particles != nullptr) {
     write_particles(*particles, tree, writer);
-    return;
+  } else {
+    writer.write(tree.order, tree.order_count * sizeof(std::uint32_t));
+    writer.pad();
   }
-  writer.write(tree.order, tree.order_count * sizeof(std::uint32_t));
-  writer.pad();
+  if (tree.sample) write_sample(*tree.sample, writer);
 }
 
 // The chunks' sums lie behind what they are of.
@@ -238,7 +293,10 @@ bool is_undamaged(const MappedFile& file, std::uint64_t bytes) {
 
 bool is_possible(const TypeHeader& header) {
   return header.fields <= most_fields && header.levels <= TreeOfType::levels_at_most &&
-         header.weight <= 2 && header.loose <= Loose::with_weights && header.count >= header.bad &&
+         header.weight <= 2 && header.loose <= Stored::with_weights &&
+         header.sample <= Stored::with_weights &&
+         (header.sample == Stored::nothing || header.sample_stride > 0) &&
+         header.others <= ParticleSample::most_others && header.count >= header.bad &&
          header.order_count <= header.count &&
          std::all_of(std::begin(header.nodes), std::end(header.nodes),
                      [&](std::uint64_t nodes) { return nodes <= header.count; });
@@ -262,22 +320,41 @@ class Sections {
   std::uint64_t next_;
 };
 
-LooseParticles particles_of(const TypeHeader& header, Sections& sections) {
-  const auto count = static_cast<std::size_t>(header.order_count);
-  const auto column = [&](std::size_t width) {
-    const float* values = nullptr;
-    sections.take(width * count * sizeof(float), values);
-    return Column(sections.file(), values, width * count);
-  };
-  LooseParticles particles;
-  particles.position = column(3);
-  particles.smoothing_length = column(1);
-  if (header.loose == Loose::with_weights) particles.weight = column(1);
-  if (header.loose == Loose::of_one_weight)
-    particles.weight = Column::uniform(static_cast<float>(header.weight_of_all));
+Column column_of(std::uint64_t values, Sections& sections) {
+  const float* first = nullptr;
+  sections.take(values * sizeof(float), first);
+  return Column(sections.file(), first, static_cast<std::size_t>(values));
+}
+
+StoredParticles particles_of(const TypeHeader& header, Stored stored, double weight_of_all,
+                             std::uint64_t count, Sections& sections) {
+  StoredParticles particles;
+  particles.position = column_of(3 * count, sections);
+  particles.smoothing_length = column_of(count, sections);
+  if (stored == Stored::with_weights) particles.weight = column_of(count, sections);
+  if (stored == Stored::of_one_weight)
+    particles.weight = Column::uniform(static_cast<float>(weight_of_all));
   for (std::size_t f = 0; f < header.fields; ++f)
-    particles.fields.push_back(column(1));
+    particles.fields.push_back(column_of(count, sections));
   return particles;
+}
+
+std::string name_at(const char* bytes) {
+  return {bytes, strnlen(bytes, name_bytes)};
+}
+
+ParticleSample sample_of(const TypeHeader& header, Sections& sections) {
+  ParticleSample sample;
+  sample.stride = header.sample_stride;
+  std::copy(header.sample_origin, header.sample_origin + 3, sample.origin.a);
+  const std::uint64_t count = sampled_count(header);
+  sample.particles =
+      particles_of(header, header.sample, header.sample_weight_of_all, count, sections);
+  for (std::size_t f = 0; f < header.others; ++f) {
+    sample.other_names.push_back(name_at(header.other_names[f]));
+    sample.others.push_back(column_of(count, sections));
+  }
+  return sample;
 }
 
 std::shared_ptr<const TreeOfType> tree_of(const TypeHeader& header, Sections& sections) {
@@ -290,7 +367,7 @@ std::shared_ptr<const TreeOfType> tree_of(const TypeHeader& header, Sections& se
     tree->origin.a[axis] = header.origin[axis];
   tree->side = header.side;
   for (std::size_t f = 0; f < header.fields; ++f)
-    tree->fields.emplace_back(header.names[f], strnlen(header.names[f], name_bytes));
+    tree->fields.push_back(name_at(header.names[f]));
   for (std::size_t l = 0; l < header.levels; ++l) {
     TreeLevel level;
     level.count = header.nodes[l];
@@ -303,11 +380,13 @@ std::shared_ptr<const TreeOfType> tree_of(const TypeHeader& header, Sections& se
     sections.take(bytes[5], level.first_loose);
     tree->levels.push_back(level);
   }
-  if (header.loose == Loose::in_snapshot) {
+  if (header.loose == Stored::nothing) {
     sections.take(header.order_count * sizeof(std::uint32_t), tree->order);
   } else {
-    tree->particles = particles_of(header, sections);
+    tree->particles =
+        particles_of(header, header.loose, header.weight_of_all, header.order_count, sections);
   }
+  if (header.sample != Stored::nothing) tree->sample = sample_of(header, sections);
   tree->order_count = header.order_count;
   tree->owner = sections.file();
   return tree;

@@ -123,5 +123,48 @@ TEST(ReferenceColumn, IsNothingWhenTheCameraSeesNothing) {
   EXPECT_FALSE(find_reference_column(frame.components[0], frame));
 }
 
+TEST(ReferenceColumn, OfTheLargestSampleIsThatOfAll) {
+  constexpr std::size_t count = 2 * most_sampled + 700001;  // every ninth is looked at
+  std::vector<float> position(3 * count), h(count);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  for (float& x : position)
+    x = uniform(random);
+  for (float& length : h)
+    length = 0.1F * (1.5F + uniform(random));
+  const std::size_t stride = least_sample_stride(count);
+  ASSERT_EQ(stride, 3U);
+  Frame all = ball(1, 1), sample = all;
+  std::vector<float> sampled_position, sampled_h;
+  for (std::size_t i = 0; i < count; i += stride) {
+    sampled_position.insert(sampled_position.end(), &position[3 * i], &position[3 * i] + 3);
+    sampled_h.push_back(h[i]);
+  }
+  Particles& particles = all.components[0].particles;
+  particles.count = count;
+  particles.position = Column::owning(std::move(position));
+  particles.smoothing_length = Column::owning(std::move(h));
+  Particles& of_sample = sample.components[0].particles;
+  of_sample.count = sampled_h.size();
+  of_sample.position = Column::owning(std::move(sampled_position));
+  of_sample.smoothing_length = Column::owning(std::move(sampled_h));
+  EXPECT_EQ(
+      find_reference_column(sample.components[0], sample, ParticlePass(of_sample.count), stride),
+      find_reference_column(all.components[0], all));
+}
+
+TEST(SampleStride, IsOfTheLargestSampleAndNestsInIt) {
+  for (const std::size_t count : {1ULL, 1999999ULL, 2000001ULL, 16777216ULL, 999999937ULL}) {
+    const std::size_t least = least_sample_stride(count);
+    EXPECT_LE(ceil_divide(count, least), most_sampled);
+    for (const std::size_t limit : {1UL, 512UL, 200000UL, 500000UL, most_sampled}) {
+      const std::size_t stride = sample_stride(count, limit);
+      EXPECT_LE(ceil_divide(count, stride), limit) << count;
+      EXPECT_EQ(stride % least, 0U) << count << " " << limit;
+      EXPECT_EQ(stride, least * sample_stride(ceil_divide(count, least), limit)) << count;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace splotchcl

@@ -69,7 +69,7 @@ TEST_F(TreeFile, HoldsParticlesInItsOrder) {
   ASSERT_TRUE(read.particles);
   EXPECT_EQ(read.order, nullptr);
   ASSERT_EQ(read.order_count, tree_.order_count);
-  const LooseParticles& particles = *read.particles;
+  const StoredParticles& particles = *read.particles;
   ASSERT_EQ(particles.fields.size(), 1U);
   for (std::uint64_t i = 0; i < read.order_count; ++i) {
     const std::uint32_t place = tree_.order[i];
@@ -88,6 +88,33 @@ TEST_F(TreeFile, HoldsOneWeightForAllOnce) {
   const Column& weight = trees->front()->particles->weight;
   ASSERT_TRUE(weight.is_uniform());
   EXPECT_EQ(weight.uniform_value(), 2.5F);
+}
+
+TEST_F(TreeFile, HoldsASampleOfParticles) {
+  ParticleSample sample;
+  sample.stride = 2000;
+  sample.origin = {{1, 2, 3}};
+  sample.particles.position = Column::owning({1, 2, 3, 4, 5, 6, 7, 8, 9});
+  sample.particles.smoothing_length = Column::owning({2, 3, 4});
+  sample.particles.weight = Column::uniform(2.5F);
+  sample.particles.fields = {Column::owning({5, 6, 7})};
+  sample.other_names = {"density"};
+  sample.others = {Column::uniform(8)};
+  tree_.sample = sample;
+  write_trees(info(), {tree_}, {source_});
+  const auto trees = read_trees(info());
+  ASSERT_TRUE(trees);
+  ASSERT_TRUE(trees->front()->particles);
+  ASSERT_TRUE(trees->front()->sample);
+  const ParticleSample& read = *trees->front()->sample;
+  EXPECT_EQ(read.stride, 2000U);
+  EXPECT_EQ(read.origin.a[2], 3);
+  EXPECT_EQ(read.particles.position[8], 9);
+  EXPECT_EQ(read.particles.smoothing_length[2], 4);
+  EXPECT_EQ(read.particles.weight.uniform_value(), 2.5F);
+  EXPECT_EQ(read.particles.fields.at(0)[1], 6);
+  EXPECT_EQ(read.other_names, sample.other_names);
+  EXPECT_EQ(read.others.at(0)[2], 8);
 }
 
 TEST_F(TreeFile, IsNotReadOnceTheSnapshotHasChanged) {
