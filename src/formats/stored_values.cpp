@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "parallel/available_memory.h"
+#include "parallel/for_blocks.h"
+#include "scene/memory_advice.h"
 #include "scene/particle_columns.h"
 
 namespace splotchcl {
@@ -194,10 +196,18 @@ bool is_better_left(const StoredColumn& column) {
 
 Column converted(StoredColumn column, bool is_streamed) {
   const std::size_t size = column.size();
-  return make_column(size, is_streamed,
-                     [column = std::move(column)](std::size_t begin, std::size_t end, float* out) {
-                       column.make(begin, end, out);
-                     });
+  if (is_streamed) {
+    return make_column(
+        size, true, [column = std::move(column)](std::size_t begin, std::size_t end, float* out) {
+          column.make(begin, end, out);
+        });
+  }
+  constexpr std::size_t values_at_once = std::size_t{1} << 20;
+  LargeVector<float> values(size);
+  for_blocks(size, values_at_once, [&](std::size_t first, std::size_t last) {
+    column.make(first, last, values.data() + first);
+  });
+  return owning_column(std::move(values));
 }
 
 }  // namespace
