@@ -112,6 +112,7 @@ class TreeBuilder {
       sample.values[f] = held.values[i * fields + f];
     sample.flux = held.flux[i];
     member.samples.add(sample);
+    member.samples.least = member.samples.largest = sample.values;
     return member;
   }
 
@@ -243,7 +244,8 @@ class TreeBuilder {
       std::array<float, sampled_members> values{};
       for (std::size_t k = 0; k < sampled_members; ++k)
         values[k] = sampled.samples[std::min(k, sampled.count - 1)].values[f];
-      arrays.fields.push_back(SampledField::of(values.data()));
+      arrays.fields.push_back(
+          SampledField::of(values.data(), sampled.least[f], sampled.largest[f]));
     }
   }
 

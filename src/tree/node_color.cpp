@@ -11,30 +11,54 @@ namespace {
 struct SampledColors {
   std::array<PaletteWay::Step, sampled_members> steps;
   std::array<float, sampled_members> factors;
+  float unseen2 = 0;  // squared, of the ways to members beyond all samples
 };
+
+// Squared, of the ways from the outermost samples to the outermost members.
+template <class Way>
+float unseen2(const SampledField& field, const Way& way) {
+  const auto all = field.all_ordered();
+  const auto [least, largest] = std::minmax_element(all.begin(), all.end());
+  const float below = way(*least) - way(field.least_ordered());
+  const float above = way(field.largest_ordered()) - way(*largest);
+  return below * below + above * above;
+}
 
 SampledColors sampled_colors(const TreePart& part, const SampledField* sampled) {
   SampledColors colors;
   colors.steps.fill(part.palette->step(0));
   colors.factors.fill(1);
+  float ways2 = 0, largest_factor = 1;
   if (part.color_places) {
-    const auto values = sampled[part.part->color].all_ordered();
+    const SampledField& field = sampled[part.part->color];
+    const auto values = field.all_ordered();
     for (std::size_t k = 0; k < sampled_members; ++k)
       colors.steps[k] = part.palette->step((*part.color_places)(values[k]));
+    const auto way = [&part](std::uint32_t ordered) {
+      return part.palette->step((*part.color_places)(ordered)).way;
+    };
+    ways2 = unseen2(field, way);
   }
   if (part.intensities) {
-    const auto values = sampled[part.part->intensity].all_ordered();
+    const SampledField& field = sampled[part.part->intensity];
+    const auto values = field.all_ordered();
     for (std::size_t k = 0; k < sampled_members; ++k)
       colors.factors[k] = (*part.intensities)(values[k]);
+    largest_factor = (*part.intensities)(field.largest_ordered());
+    colors.unseen2 = unseen2(field, *part.intensities);
   }
+  colors.unseen2 += largest_factor * largest_factor * ways2;
   return colors;
 }
 
 // Between neighbours lies what the eighth may hold. A step of the palette somewhere in an eighth is
-// in two such spreads, and its mean variance there is a sixth of its square. Twice as much: the
-// eighths at both ends reach farther, and samples of the nodes below were chosen likewise (measured
-// over whole levels: 1.7 and 1.5).
+// in two such spreads, and its mean variance there is a sixth of its square. Twice as much: samples
+// of the nodes below were chosen likewise (measured over whole levels: 1.5).
 constexpr float variance_of_spread = 1.0f / 6;
+// Members that lie far beyond the outermost sample are missed by chance. As much as for two
+// spreads, which there would be if one of them were the outermost sample: if a node that missed
+// them seemed to err by less, those would be drawn, and err alike.
+constexpr float variance_of_unseen = 1.0f / 3;
 float spread_around(const SampledColors& colors, std::size_t k) {
   const std::size_t before = k > 0 ? k - 1 : k;
   const std::size_t after = k + 1 < sampled_members ? k + 1 : k;
@@ -71,6 +95,7 @@ NodeColor node_color(const TreePart& part, const TreeLevel& level, std::uint64_t
     const float spread = spread_around(colors, k);
     variance += variance_of_spread * spread * spread * share * share;
   }
+  if (members == 0) variance += variance_of_unseen * colors.unseen2 * share * share;
   color.variance = static_cast<double>(variance);
   for (std::size_t c = 0; c < 3; ++c) {
     const float spread2 = std::max(0.0f, squares[c] - color.mean[c] * color.mean[c]);

@@ -15,10 +15,6 @@ constexpr double most_of_one_node = 10;
 constexpr double usual_error2 = 4.4e-5;
 // A part of what is promised is left for what corrections miss.
 constexpr double part_that_is_taken = 0.8;
-// What nodes may err by if all err alike, over what they may as they do, of which the worst squares
-// were off by 0.4 to 0.7. It falls slowly: a node of fewer particles is smaller by their third
-// root.
-constexpr double most_alike = 2, power_of_alike = 2;
 // What nodes take grows by less than their limit.
 constexpr double power_of_limit = 1.2, most_widened = 8, most_narrowed = 30;
 
@@ -113,16 +109,11 @@ bool NodeLimits::keeps(const WeighedNode& node, const ErrorCells& cells) const {
          static_cast<double>(node.largest2) <= most;
 }
 
-void NodeLimits::correct(const ErrorCells& used, const ErrorCells& alike) {
-  const CellNumbers taken = used.totals(), taken_alike = alike.totals();
+void NodeLimits::correct(const ErrorCells& used) {
+  const CellNumbers taken = used.totals();
   for (std::size_t cell = 0; cell < of_node_[0].size(); ++cell) {
     const double most = part_that_is_taken * promised_[0][cell];
-    const double of_alike = most_alike * standard_deviations * std::sqrt(promised_[0][cell]);
-    double change = std::pow(most / std::max(taken[0][cell], 1e-300), power_of_limit);
-    if (is_corrected_) {
-      change = std::min(
-          change, std::pow(of_alike / std::max(taken_alike[0][cell], 1e-300), power_of_alike));
-    }
+    const double change = std::pow(most / std::max(taken[0][cell], 1e-300), power_of_limit);
     of_node_[0][cell] *= std::clamp(change, 1 / most_narrowed, most_widened);
   }
   widen(used, of_node_);

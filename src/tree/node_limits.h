@@ -20,9 +20,8 @@ class NodeLimits {
   // correct() was called what a node may.
   void see(const ErrorCells& light);
   bool keeps(const WeighedNode& node, const ErrorCells& cells) const;
-  // After all nodes were looked at with these limits: nodes have taken so much, and would take so
-  // much of an error, not of a variance, if all erred alike.
-  void correct(const ErrorCells& used, const ErrorCells& alike);
+  // After all nodes were looked at with these limits: nodes have taken so much.
+  void correct(const ErrorCells& used);
   // The largest standard deviation of what nodes err by that was taken, over what is promised.
   double largest_part(const ErrorCells& used) const;
 

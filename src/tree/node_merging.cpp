@@ -53,6 +53,17 @@ bool are_alike_in_flux(const std::vector<TreeSample>& samples) {
   return largest->flux - least->flux <= alike * largest->flux;
 }
 
+void take_ranges(const std::vector<TreeMember>& members, TreeSamples& samples) {
+  samples.least = members.front().samples.least;
+  samples.largest = members.front().samples.largest;
+  for (const TreeMember& member : members) {
+    for (std::size_t f = 0; f < most_fields; ++f) {
+      samples.least[f] = std::min(samples.least[f], member.samples.least[f]);
+      samples.largest[f] = std::max(samples.largest[f], member.samples.largest[f]);
+    }
+  }
+}
+
 // Up to eight members that are alike in flux. Of others eight that stand for an eighth of the flux
 // each, in the order of the first field: the one in whose share a random place of each eighth lies,
 // so that any function of the fields has the members' mean.
@@ -68,6 +79,7 @@ TreeSamples resampled(const std::vector<TreeMember>& members, const NodeMoments&
     return a.values[0] < b.values[0];
   });
   TreeSamples chosen;
+  take_ranges(members, chosen);
   chosen.are_all = are_all && all.size() <= sampled_members && are_alike_in_flux(all);
   if (chosen.are_all) {
     for (const TreeSample& sample : all)

@@ -19,7 +19,8 @@ struct TreeSample {
 struct TreeSamples {
   std::array<TreeSample, sampled_members> samples{};
   std::size_t count = 0;
-  bool are_all = true;  // members, each with its own flux
+  bool are_all = true;             // members, each with its own flux
+  FieldValues least{}, largest{};  // of all members: what is not sampled may lie there
 
   void add(const TreeSample& sample) { samples[count++] = sample; }
 };

@@ -30,11 +30,17 @@ struct SampledField {
   std::uint16_t lowest[2] = {};  // ordered: its upper and its lower half
   std::uint16_t span = 0;        // to the largest: eleven bits, and how far they are shifted
   std::uint8_t members[sampled_members] = {};
+  // How far values of other members reach beyond, rounded up to an eighth of an octave.
+  std::uint8_t below = 0, above = 0;
 
-  static SampledField of(const float* values);
+  // All members' values lie from `least` to `largest`.
+  static SampledField of(const float* values, float least, float largest);
   std::uint32_t ordered(std::size_t member) const { return all_ordered()[member]; }
   std::array<std::uint32_t, sampled_members> all_ordered() const;
+  // Between these all members' values lie.
+  std::uint32_t least_ordered() const;
+  std::uint32_t largest_ordered() const;
 };
-static_assert(sizeof(SampledField) == 14);
+static_assert(sizeof(SampledField) == 16);
 
 }  // namespace splotchcl

@@ -120,7 +120,7 @@ class Cutter {
     }
     for (int pass = 0; pass < settings_.corrections; ++pass) {
       walk();
-      limits_.correct(sums_.errors, sums_.alike);
+      limits_.correct(sums_.errors);
     }
     draws_ = true;
     walk();

@@ -31,8 +31,8 @@ struct TreeCut {
   std::uint64_t bytes = 0;    // of the tree, for these
   // Six standard deviations of what nodes err by, over max(1, light / 2) in sums: the largest.
   double estimate = 0;
-  // Of each block of the crop, over max(1, light): what all its
-  // nodes would err by together if they erred alike, as they do around a peak of light and color.
+  // Of each block of the crop, over max(1, light): what all its nodes would err by together if they
+  // erred alike.
   BlockErrors alike;
 };
 

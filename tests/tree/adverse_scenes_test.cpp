@@ -119,6 +119,18 @@ TEST_F(AdverseScenes, PalettesOfSteps) {
   expect_kept(frame, tree_of(matter), "steps");
 }
 
+TEST_F(AdverseScenes, MembersOfWhichFewGlow) {
+  for (const std::size_t one_in : {20U, 30U, 50U, 200U}) {
+    Matter matter = clumps(60000, 55);
+    for (std::size_t i = 0; i < matter.count(); ++i)
+      matter.color[i] = i % one_in == 0 ? 10 : 0.1F;
+    Frame frame = frame_of(matter, 64, 64);
+    frame.kernel.footprint_pixels = 1;
+    frame.components.front().palette.emission = {Rgb{0, 0, 0}, Rgb{5, 2, 1}};
+    expect_kept(frame, tree_of(matter), "one in " + std::to_string(one_in));
+  }
+}
+
 TEST_F(AdverseScenes, AreNotAllDrawnFromParticles) {
   const Matter matter = clumps(60000, 54);
   served() = 0;

@@ -115,6 +115,24 @@ TEST(BuildTree, SamplesMembersWithoutBias) {
   EXPECT_LE(std::abs(difference), 4 * std::sqrt(squares));
 }
 
+TEST(BuildTree, KnowsBetweenWhichValuesAllMembersLie) {
+  const Matter matter = clumps(20000, 7, 1);
+  const auto tree = tree_of(matter, 16);
+  for (std::size_t l = 0; l < tree->levels.size(); ++l) {
+    const TreeLevel& level = tree->levels[l];
+    for (std::uint64_t node = 0; node < level.count; ++node) {
+      std::vector<std::uint32_t> places;
+      collect(*tree, l, node, places);
+      const SampledField& field = level.fields[node];
+      for (const std::uint32_t place : places) {
+        const std::uint32_t value = ordered_value(matter.color[place]);
+        ASSERT_GE(value, field.least_ordered()) << l << " " << node;
+        ASSERT_LE(value, field.largest_ordered()) << l << " " << node;
+      }
+    }
+  }
+}
+
 std::vector<double> values_of(const Matter& matter, const std::vector<std::uint32_t>& places) {
   std::vector<double> values;
   for (const std::uint32_t place : places)
@@ -271,20 +289,40 @@ TEST(BuildTree, RefusesMoreThan255ParticlesInOnePlace) {
 TEST(SampledField, HoldsEqualValuesExactly) {
   for (const float value : {-1e30f, -2.5f, 0.0f, 1e-20f, 10237.0f}) {
     const std::vector<float> equal(sampled_members, value);
-    EXPECT_EQ(value_of_ordered(SampledField::of(equal.data()).ordered(3)), value);
+    EXPECT_EQ(value_of_ordered(SampledField::of(equal.data(), value, value).ordered(3)), value);
   }
 }
 
 TEST(SampledField, HoldsOthersToAPartOfTheirSpread) {
   const std::vector<float> values = {1000, 1000.5f, 1001, 1002, 1003, 1004, 1004.5f, 1005};
-  const SampledField field = SampledField::of(values.data());
+  const SampledField field = SampledField::of(values.data(), values.front(), values.back());
   for (std::size_t k = 0; k < sampled_members; ++k)
     EXPECT_NEAR(value_of_ordered(field.ordered(k)), values[k], 5.1 / 510);
 }
 
+TEST(SampledField, HoldsHowFarOtherMembersReach) {
+  const std::vector<float> values = {2, 2, 2.5F, 3, 3, 3, 3, 4};
+  const auto distance = [](float from, float to) {
+    return static_cast<double>(ordered_value(to)) - static_cast<double>(ordered_value(from));
+  };
+  for (const float least : {2.0F, 1.999F, 0.0F, -1e30F}) {
+    for (const float largest : {4.0F, 4.001F, 1e30F}) {
+      const SampledField field = SampledField::of(values.data(), least, largest);
+      const double below = distance(least, 2), above = distance(4, largest);
+      const double found_below = distance(value_of_ordered(field.least_ordered()), 2);
+      const double found_above = distance(4, value_of_ordered(field.largest_ordered()));
+      EXPECT_GE(found_below, below);
+      EXPECT_LE(found_below, 1.1 * below);
+      EXPECT_GE(found_above, above);
+      // The span to the largest of the samples is rounded up to a 2048th.
+      EXPECT_LE(found_above, 1.1 * above + distance(2, 4) / 1024);
+    }
+  }
+}
+
 TEST(SampledField, KeepsTheOrderOfValuesOfAnySize) {
   const std::vector<float> rising = {-1e30f, -2.5f, -1e-20f, 0, 1e-20f, 1, 3e4f, 1e30f};
-  const SampledField field = SampledField::of(rising.data());
+  const SampledField field = SampledField::of(rising.data(), rising.front(), rising.back());
   for (std::size_t k = 1; k < sampled_members; ++k)
     EXPECT_LE(field.ordered(k - 1), field.ordered(k));
 }
