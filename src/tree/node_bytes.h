@@ -50,4 +50,15 @@ inline double smoothing_of_bits(std::uint8_t bits) {
   return lengths[bits];
 }
 
+// NodeMoments::narrowness in three bits, rounded down.
+constexpr double narrownesses[] = {1, 0.92, 0.85, 0.75, 0.6, 0.4, 0.2, 0.05};
+inline std::uint8_t narrow_bits(double narrowness) {
+  constexpr double almost_one = 0.97;
+  if (narrowness >= almost_one) return 0;
+  std::uint8_t bits = 1;
+  while (bits < 7 && narrowness < narrownesses[bits])
+    ++bits;
+  return bits;
+}
+
 }  // namespace splotchcl

@@ -142,7 +142,9 @@ TreeNode stored_node(const TreeMember& merged, int level) {
   node.fourth = rough_bits(std::sqrt(std::sqrt(shape.fourth)) / cell);
   node.uneven = rough_bits(std::sqrt(shape.uneven) / cell);
   node.widest = wide_bits(moments.widest);
-  if (merged.samples.are_all) node.members = static_cast<std::uint8_t>(merged.samples.count);
+  const auto all = static_cast<std::uint8_t>(merged.samples.are_all ? merged.samples.count : 0);
+  node.members =
+      static_cast<std::uint8_t>(narrow_bits(moments.narrowness()) << TreeNode::narrow_shift | all);
   node.reach = rough_bits(1.05 * moments.reach / cell);  // more than is rounded off
   node.flux = static_cast<float>(moments.flux);
   return node;

@@ -60,6 +60,7 @@ void add_widths(const NodeMoments& part, const std::array<double, 3>& a, double 
                 NodeMoments& sum) {
   sum.h2 += share * part.h2;
   sum.h4 += share * part.h4;
+  sum.inverse_h2 += share * part.inverse_h2;
   double along = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     sum.h2_offset[i] += share * (part.h2_offset[i] + a[i] * part.h2);
@@ -76,6 +77,7 @@ NodeMoments NodeMoments::of_particle(double flux, const Vec3& place, double h) {
   moments.centroid = place;
   moments.h2 = h * h;
   moments.h4 = moments.h2 * moments.h2;
+  moments.inverse_h2 = 1 / moments.h2;
   moments.widest = h;
   return moments;
 }

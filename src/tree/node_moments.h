@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "splotchcl/vector.h"
@@ -17,6 +18,7 @@ struct NodeMoments {
   std::array<double, 10> third = {};     // <d d d>: xxx xxy xxz xyy xyz xzz yyy yyz yzz zzz
   double fourth = 0;                     // <|d|^4>
   double h2 = 0, h4 = 0;                 // <h^2>, <h^4>
+  double inverse_h2 = 0;                 // <1 / h^2>
   std::array<double, 3> h2_offset = {};  // <h^2 d>
   double h2_spread = 0;                  // <h^2 |d|^2>
   double widest = 0;                     // h
@@ -27,6 +29,8 @@ struct NodeMoments {
   static NodeMoments merged(const std::vector<const NodeMoments*>& parts);
 
   double variance() const { return (second[0] + second[3] + second[5]) / 3; }  // per axis
+  // Of widths, that of most of the peaks over that of the mean square: 1 where all are as wide.
+  double narrowness() const { return 1 / std::sqrt(inverse_h2 * h2); }
 };
 
 // How far members are from one round Gaussian, with standard deviations of `deviation_per_h` h:

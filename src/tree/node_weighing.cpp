@@ -22,7 +22,8 @@ double square(double x) {
 
 // A node's shape in pixels.
 struct ShownShape {
-  double size2 = 0, place2 = 0;  // variances of members' own Gaussians, and of their places
+  // Variances of members' own Gaussians, of those with most of the peaks, and of their places.
+  double size2 = 0, narrow2 = 0, place2 = 0;
   double uneven = 0, third = 0, fourth = 0;
 };
 
@@ -31,6 +32,7 @@ ShownShape shown_shape(const TreePart& part, const TreeNode& node, double cell,
   const double scale = pixels_per_length * part.tree().side;
   ShownShape shape;
   shape.size2 = square(length_of_bits(node.size) * part.deviation_per_h * scale);
+  shape.narrow2 = shape.size2 * square(narrownesses[node.narrow()]);
   shape.place2 = square(length_of_bits(node.deviation) * scale);
   shape.uneven = square(rough_of_bits(node.uneven) * cell * scale);
   const double root_of_third = rough_of_bits(node.third) * cell * scale;
@@ -138,7 +140,8 @@ void NodeWeigher::weigh_error(const TreePart& part, const TreeItem& item, std::s
   const double cell = std::ldexp(1.0, -node.cell_level(level));
   const ShownShape shape = shown_shape(part, node, cell, at.pixels_per_length);
   const double footprint2 = square(frame_.kernel.footprint_pixels);
-  const double seen2 = footprint2 + shape.size2;
+  // Where few members are much narrower than others, they stand out of the node.
+  const double seen2 = footprint2 + shape.narrow2;
   const PixelResponse narrow = pixel_response(seen2);
   const PixelResponse spread = pixel_response(seen2 + spread_of_members(shape.place2, seen2));
   const double light =

@@ -24,16 +24,17 @@ struct TreeNode {
   std::uint16_t size = 0;       // root mean square of h
   std::uint8_t third = 0, fourth = 0, uneven = 0;  // roots of NodeShape's
   std::uint8_t widest = 0;                         // h, rounded up
-  std::uint8_t members = 0;                        // how many are sampled, and rest_bit
+  std::uint8_t members = 0;                        // how many are sampled, narrow_bits(), rest_bit
   std::uint8_t reach = 0;                          // NodeMoments::reach, rounded up
   float flux = 0;                                  // sum of masses, of h, or of density times h^3
 
   // A node of its parent's particles that lie in octants with too few for nodes of their own. It
   // has the octant of one of these, and the parent's cell.
-  static constexpr std::uint8_t rest_bit = 0x80;
+  static constexpr std::uint8_t rest_bit = 0x80, narrow_shift = 4;
   bool is_rest() const { return (members & rest_bit) != 0; }
   // All members where they are sampled, alike in flux; 0: only some are.
   std::uint8_t all_sampled() const { return members & 0x0f; }
+  std::uint8_t narrow() const { return (members >> narrow_shift) & 7; }
   int cell_level(std::size_t level) const { return static_cast<int>(level) - (is_rest() ? 1 : 0); }
 };
 static_assert(sizeof(TreeNode) == 20);

@@ -2,6 +2,7 @@
 #include "splotchcl/reference.h"
 #include "testing.h"
 #include "tree/merged_drawing.h"
+#include "tree/tree_cut.h"
 #include "tree/tree_scenes.h"
 
 // Scenes whose nodes err alike, or by more than their moments tell: frames keep their promise, or
@@ -35,8 +36,9 @@ class AdverseScenes : public PictureTest {
     return count;
   }
 
-  static Frame seen_from(const Matter& matter, const Vec3& position, Projection projection) {
-    Frame frame = frame_of(matter, 32, 32);
+  static Frame seen_from(const Matter& matter, const Vec3& position, Projection projection,
+                         int side = 32) {
+    Frame frame = frame_of(matter, side, side);
     Camera camera;
     camera.position = position;
     camera.look_at = {{0.5, 0.5, 0.5}};
@@ -129,6 +131,29 @@ TEST_F(AdverseScenes, MembersOfWhichFewGlow) {
     frame.components.front().palette.emission = {Rgb{0, 0, 0}, Rgb{5, 2, 1}};
     expect_kept(frame, tree_of(matter), "one in " + std::to_string(one_in));
   }
+}
+
+// Of a cluster of galaxies, where such a node was kept: offsets and smoothing lengths.
+TEST_F(AdverseScenes, NodeWithFewCompactMembersSeemsToErrAsItDoes) {
+  const double members[][4] = {{4.2, -7.8, -21.4, 35.9}, {-6.7, 4.1, -19.6, 30.5},
+                               {-12.6, -5.4, 8.1, 5.6},  {-12.6, -3.9, 10.1, 5.3},
+                               {-11.4, -4.7, 12.2, 6.1}, {24.1, 11.4, 2.5, 42.8},
+                               {14.9, 6.3, 8.1, 32.5}};
+  Matter matter;
+  for (const auto& [x, y, z, h] : members)
+    matter.add(0.5 + 0.01 * x, 0.5 + 0.01 * y, 0.5 + 0.01 * z, 0.01 * h, 1, 1);
+  Frame frame = seen_from(matter, {{0.5, -3, 0.5}}, Projection::orthographic, 128);
+  plant(frame, tree_of(matter));
+  constexpr double keeps_all = 1e3;
+  const TreeCut cut = cut_tree(frame, {keeps_all, {}, 0});
+  ASSERT_EQ(cut.nodes, 1U);
+  const ReferenceImage node = reference::render(cut.frame), exact = reference::render(frame);
+  double worst = 0;
+  for (std::size_t i = 0; i < exact.pixels.size(); ++i)
+    worst = std::max(worst, std::abs(node.pixels[i] - exact.pixels[i]));
+  const double deviation = cut.estimate / 6;
+  EXPECT_LE(worst, 10 * deviation);
+  EXPECT_GE(worst, deviation / 10);
 }
 
 TEST_F(AdverseScenes, AreNotAllDrawnFromParticles) {

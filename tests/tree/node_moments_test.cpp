@@ -1,6 +1,7 @@
 #include "tree/node_moments.h"
 
 #include "testing.h"
+#include "tree/node_bytes.h"
 
 namespace splotchcl::test {
 namespace {
@@ -103,6 +104,28 @@ TEST(NodeShape, IsThatOfAPair) {
   EXPECT_NEAR(shape.uneven, std::sqrt(4.0 / 9 + 1.0 / 9 + 1.0 / 9), 1e-12);
   EXPECT_NEAR(shape.third, 0, 1e-12);
   EXPECT_NEAR(shape.fourth, 2, 1e-12);
+}
+
+TEST(NodeMoments, KnowHowNarrowMostOfTheirPeaksAre) {
+  const auto merged_widths = [](std::vector<double> widths) {
+    std::vector<NodeMoments> parts;
+    for (const double h : widths)
+      parts.push_back(NodeMoments::of_particle(1, Vec3{{h, 0, 0}}, h));
+    std::vector<const NodeMoments*> pointers;
+    for (const NodeMoments& part : parts)
+      pointers.push_back(&part);
+    return NodeMoments::merged(pointers).narrowness();
+  };
+  EXPECT_NEAR(merged_widths({0.1, 0.1, 0.1}), 1, 1e-12);
+  EXPECT_NEAR(merged_widths({0.1, 0.2}), 1 / std::sqrt(62.5 * 0.025), 1e-12);
+}
+
+TEST(NarrowBits, AreRoundedDown) {
+  for (double narrowness = 0.05; narrowness <= 1; narrowness += 0.001) {
+    const double stored = narrownesses[narrow_bits(narrowness)];
+    EXPECT_LE(stored, std::max(narrowness, narrowness >= 0.97 ? 1.0 : 0.0));
+    EXPECT_GE(stored, 0.25 * narrowness);
+  }
 }
 
 }  // namespace
