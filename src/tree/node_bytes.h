@@ -29,15 +29,15 @@ inline double length_of_bits(std::uint16_t bits) {
   return lengths[bits];
 }
 
-// To an eighth of an octave, of lengths up to 2^1.75 of a cell.
+// To an eighth of an octave, from 2^-20 to 2^11.75 of a cell: widths may be many times as large.
 inline std::uint8_t rough_bits(double part_of_cell) {
   if (!(part_of_cell > 0)) return 0;
   return static_cast<std::uint8_t>(
-      std::clamp(std::round((std::log2(part_of_cell) + 30) * 8), 1.0, 255.0));
+      std::clamp(std::round((std::log2(part_of_cell) + 20) * 8), 1.0, 255.0));
 }
 inline double rough_of_bits(std::uint8_t bits) {
   static const auto roughs =
-      table_of<256>([](int b) { return b == 0 ? 0 : std::exp2(b / 8.0 - 30); });
+      table_of<256>([](int b) { return b == 0 ? 0 : std::exp2(b / 8.0 - 20); });
   return roughs[bits];
 }
 
