@@ -186,7 +186,7 @@ Matter some_members(std::mt19937_64& random) {
   return matter;
 }
 
-// By at most so many standard deviations of their estimate, of which NodeLimits allows ten.
+// By at most so many standard deviations of their estimate, which NodeLimits counts with.
 TEST_F(AdverseScenes, NodesErrAsTheySeemTo) {
   std::mt19937_64 random(57);
   for (int n = 0; n < 30; ++n)
