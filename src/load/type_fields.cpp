@@ -248,9 +248,9 @@ Column TypeFields::masses() const {
   if (find_field(*type_, "mass") != nullptr) return snapshot_->read(type_->type, "mass");
   if (type_->table_mass) return Column::uniform(static_cast<float>(*type_->table_mass));
   throw UsageError(fmt::format(
-      "{}: weight is \"mass\", but particles of type {} in {} have no masses; give them "
+      "{}: weight is \"mass\", but particles of type {} in {} have no masses{}; give them "
       "masses, or set weight to \"constant\"",
-      label_, type_->type, file()));
+      label_, type_->type, file(), why_left_out(snapshot_->info(), "mass")));
 }
 
 Column TypeFields::densities() const {
@@ -388,10 +388,10 @@ void TypeFields::refuse_field(const std::string& field, const std::string& key) 
   std::vector<std::string> all = names;
   all.insert(all.end(), derived.begin(), derived.end());
   throw UsageError(fmt::format(
-      "{}: {} is \"{}\", which particles of type {} in {} do not have, expected one of {}, or, "
+      "{}: {} is \"{}\", which particles of type {} in {} do not have{}, expected one of {}, or, "
       "derived, {}{}",
-      label_, key, field, type_->type, file(), fmt::join(names, ", "), fmt::join(derived, ", "),
-      did_you_mean(nearest_name(field, all))));
+      label_, key, field, type_->type, file(), why_left_out(snapshot_->info(), field),
+      fmt::join(names, ", "), fmt::join(derived, ", "), did_you_mean(nearest_name(field, all))));
 }
 
 void TypeFields::refuse_width(const FieldInfo& info, const std::string& field,

@@ -36,6 +36,7 @@ class TextTable : public Table {
     std::size_t place;  // among the wanted values
   };
   void leave_out_line_of_counts(std::vector<std::string>& notes);
+  void find_decimal_mark();
   void find_columns(const std::vector<std::string>& names, std::vector<std::string>& notes);
   void refuse_lost_axis(const std::string& axis, const std::vector<std::string>& names) const;
   void count_rows();
@@ -44,6 +45,7 @@ class TextTable : public Table {
   }
   void read_row(const TextLines& line, const std::vector<WantedCell>& wanted, double* values) const;
   [[noreturn]] void fail(const TextLines& line, const std::string& what) const;
+  [[noreturn]] void refuse_cell(const TextLines& line, std::string_view cell) const;
   [[noreturn]] void refuse_count(const TextLines& line, std::size_t cells) const;
 
   std::shared_ptr<const MappedFile> file_;
@@ -91,9 +93,21 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, TableLayout layout,
         "that are not needed), or leave out the lines before the table with read.skip_lines",
         path, layout_.lines_before + 1, width, wanted.size()));
   }
+  find_decimal_mark();
   find_columns(wanted, notes);
   count_rows();
   if (!names.empty()) leave_out_line_of_counts(notes);
+}
+
+// A table has one decimal mark: a comma beside points, or between commas, is that of thousands.
+void TextTable::find_decimal_mark() {
+  if (layout_.format.separator == ',') layout_.format.decimal_mark = '.';
+  TextLines lines = first_lines();
+  for (int looked_at = 0; looked_at < 1000 && layout_.format.decimal_mark == 0 && lines.next();
+       ++looked_at) {
+    if (is_comment_line(lines.line())) continue;
+    layout_.format.decimal_mark = splotchcl::find_decimal_mark(cells_of(lines, layout_.format));
+  }
 }
 
 void TextTable::find_columns(const std::vector<std::string>& names,
@@ -103,7 +117,7 @@ void TextTable::find_columns(const std::vector<std::string>& names,
     if (names[i] == "-") continue;
     if (names[i].empty()) {
       notes.push_back(fmt::format("column {} left out, as it has no name", i + 1));
-    } else if (parse_cell(layout_.cells[i])) {
+    } else if (parse_cell(layout_.cells[i], layout_.format.decimal_mark)) {
       columns_.push_back({names[i], 1});
       cells_.push_back(i);
     } else {
@@ -168,6 +182,16 @@ void TextTable::fail(const TextLines& line, const std::string& what) const {
                               file_->path().string(), line.number(), what));
 }
 
+void TextTable::refuse_cell(const TextLines& line, std::string_view cell) const {
+  const bool has_other_mark = parse_cell(cell).has_value();
+  if (!has_other_mark) fail(line, fmt::format("found '{}', expected a number", cell.substr(0, 40)));
+  throw DataError(fmt::format(
+      "{}: line {}: found '{}', expected a number with a decimal {}, as others in the table have; "
+      "take out what stands between thousands",
+      file_->path().string(), line.number(), cell.substr(0, 40),
+      layout_.format.decimal_mark == ',' ? "comma" : "point"));
+}
+
 // Without names, lines before the table may look like its first row.
 void TextTable::refuse_count(const TextLines& line, std::size_t cells) const {
   const std::string what =
@@ -188,8 +212,8 @@ void TextTable::read_row(const TextLines& line, const std::vector<WantedCell>& w
   for (; reader.next(); ++cells) {
     const std::string_view cell = reader.cell();
     for (; next != wanted.end() && next->cell == cells; ++next) {
-      const std::optional<double> value = parse_cell(cell);
-      if (!value) fail(line, fmt::format("found '{}', expected a number", cell.substr(0, 40)));
+      const std::optional<double> value = parse_cell(cell, layout_.format.decimal_mark);
+      if (!value) refuse_cell(line, cell);
       values[next->place] = *value;
     }
   }
