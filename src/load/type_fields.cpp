@@ -147,13 +147,14 @@ bool is_called_id(const std::string& name) {
 
 }  // namespace
 
-std::optional<WholeNumbers> TypeFields::whole_numbers(const std::string& field) const {
+std::optional<WholeNumbers> TypeFields::whole_numbers(const std::string& field,
+                                                      bool are_large) const {
   using Numbers = std::vector<std::uint64_t>;
   if (canonical_field_name(field) == "id")
     return WholeNumbers{std::make_shared<const Numbers>(ids()), false};
   const FieldInfo* const info = find_field(*type_, field);
   const bool may_be_ids = info != nullptr && info->values_per_particle == 1 &&
-                          (info->name == "halo_id" || is_called_id(info->name));
+                          (are_large || info->name == "halo_id" || is_called_id(info->name));
   if (!may_be_ids) return std::nullopt;
   try {
     return WholeNumbers{

@@ -1,7 +1,9 @@
 """Masks, identifiers and wind among stars, which conditions choose."""
 
+import h5py
 import numpy as np
 import pytest
+import splotchcl
 from odd import (
     STARS,
     assert_draws_alone,
@@ -64,6 +66,17 @@ def test_identifiers_beyond_floats_select_exactly(odd_files):
     assert [np.count_nonzero(mask) for mask in masks.values()] == [200, 200, 1]
     for condition, mask in masks.items():
         assert_draws_alone(path, condition, mask, h=2)
+
+
+# Whatever their field is called.
+def test_whole_numbers_beyond_floats_are_compared_exactly(tmp_path):
+    path, first = tmp_path / "plain.hdf5", 2**60
+    with h5py.File(path, "w") as file:
+        file["pos"], file["h"] = np.random.default_rng(1).random((9, 3)), np.full(9, 0.1)
+        file["tracer"] = first + np.arange(9, dtype=np.uint64)
+    for condition, count in ((f"tracer == {first + 5}", 1), (f"tracer != {first}", 8), (f"tracer >= {first + 2}", 7)):
+        drawn = splotchcl.column(path, "counts", where=condition, center=(0.5, 0.5, 0.5), width=3, size=(16, 16))
+        assert drawn.values.sum(dtype=float) == pytest.approx(count, rel=1e-4)
 
 
 # A list of places in the file, in place of ids, finds some of them.
