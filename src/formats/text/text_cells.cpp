@@ -25,9 +25,7 @@ TextLines::TextLines(const MappedFile& file, std::uint64_t offset, std::uint64_t
       size_(file.size()),
       offset_(offset),
       number_(number) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // some spreadsheets begin with it
-  const std::string_view start(data_, std::min<std::uint64_t>(size_, byte_order_mark.size()));
-  if (offset_ == 0 && start == byte_order_mark) offset_ = byte_order_mark.size();
+  if (offset_ == 0) offset_ = size_ - text_of(file).size();
 }
 
 bool TextLines::next_of_all() {
