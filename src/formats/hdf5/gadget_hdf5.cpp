@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -225,9 +226,10 @@ void GadgetHdf5Snapshot::read_dialect() {
   }
   if (!is_swift) return;
   // SWIFT stores the kernel's scale, not its support.
-  const auto gamma = file.number("HydroScheme", "Kernel gamma");
-  smoothing_length_factor_ = gamma.value_or(cubic_spline_gamma);
-  if (gamma || !file.has("PartType0")) return;
+  const double gamma = file.number("HydroScheme", "Kernel gamma").value_or(0);
+  const bool is_stated = gamma > 0 && std::isfinite(gamma);
+  smoothing_length_factor_ = is_stated ? gamma : cubic_spline_gamma;
+  if (is_stated || !file.has("PartType0")) return;
   info_.notes.push_back(
       "HydroScheme does not say SWIFT's Kernel gamma: the cubic spline's is taken, which reaches "
       "1.8257 times the smoothing lengths in the file");

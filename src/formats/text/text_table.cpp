@@ -45,6 +45,8 @@ class TextTable : public Table {
   }
   void read_row(const TextLines& line, const std::vector<WantedCell>& wanted, double* values) const;
   [[noreturn]] void fail(const TextLines& line, const std::string& what) const;
+  // What is said of a cell that is none.
+  std::string no_number(std::string_view cell) const;
   [[noreturn]] void refuse_cell(const TextLines& line, std::string_view cell) const;
   [[noreturn]] void refuse_count(const TextLines& line, std::size_t cells) const;
 
@@ -134,9 +136,9 @@ void TextTable::refuse_lost_axis(const std::string& axis,
                                  const std::vector<std::string>& names) const {
   if (axis.empty()) return;
   const auto column = std::find(names.begin(), names.end(), axis) - names.begin();
-  throw DataError(fmt::format("{}: line {}: column {}: found '{}', expected a number",
-                              file_->path().string(), layout_.lines_before + 1, axis,
-                              layout_.cells[static_cast<std::size_t>(column)].substr(0, 40)));
+  throw DataError(fmt::format("{}: line {}: column {}: {}", file_->path().string(),
+                              layout_.lines_before + 1, axis,
+                              no_number(layout_.cells[static_cast<std::size_t>(column)])));
 }
 
 void TextTable::count_rows() {
@@ -182,14 +184,18 @@ void TextTable::fail(const TextLines& line, const std::string& what) const {
                               file_->path().string(), line.number(), what));
 }
 
+std::string TextTable::no_number(std::string_view cell) const {
+  const std::string found = fmt::format("found '{}', expected a number", cell.substr(0, 40));
+  if (!parse_cell(cell)) return found;
+  return fmt::format(
+      "{} with a decimal {}, as others in the table have; take out what stands between thousands",
+      found, layout_.format.decimal_mark == ',' ? "comma" : "point");
+}
+
 void TextTable::refuse_cell(const TextLines& line, std::string_view cell) const {
-  const bool has_other_mark = parse_cell(cell).has_value();
-  if (!has_other_mark) fail(line, fmt::format("found '{}', expected a number", cell.substr(0, 40)));
-  throw DataError(fmt::format(
-      "{}: line {}: found '{}', expected a number with a decimal {}, as others in the table have; "
-      "take out what stands between thousands",
-      file_->path().string(), line.number(), cell.substr(0, 40),
-      layout_.format.decimal_mark == ',' ? "comma" : "point"));
+  if (!parse_cell(cell)) fail(line, no_number(cell));
+  throw DataError(
+      fmt::format("{}: line {}: {}", file_->path().string(), line.number(), no_number(cell)));
 }
 
 // Without names, lines before the table may look like its first row.
