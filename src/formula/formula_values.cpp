@@ -232,10 +232,7 @@ class ProgramWriter {
 
 bool holds_for_whole(Operation comparison, std::uint64_t value, bool is_signed, double number,
                      const std::optional<std::uint64_t>& whole) {
-  // A number beyond the signed ones is compared with unsigned ones.
-  const bool may_be_negative =
-      is_signed && !(whole && *whole > std::uint64_t{std::numeric_limits<std::int64_t>::max()});
-  const bool is_negative = may_be_negative && static_cast<std::int64_t>(value) < 0;
+  const bool is_negative = is_signed && static_cast<std::int64_t>(value) < 0;
   if (whole && is_negative) return compare(comparison, -1, 0);
   if (whole) return compare(comparison, value, *whole);
   const double rounded = is_negative ? static_cast<double>(static_cast<std::int64_t>(value))

@@ -157,8 +157,16 @@ std::optional<WholeNumbers> TypeFields::whole_numbers(const std::string& field,
                           (are_large || info->name == "halo_id" || is_called_id(info->name));
   if (!may_be_ids) return std::nullopt;
   try {
-    return WholeNumbers{
-        std::make_shared<const Numbers>(snapshot_->read_integers(type_->type, info->name)), true};
+    auto numbers =
+        std::make_shared<const Numbers>(snapshot_->read_integers(type_->type, info->name));
+    // As a float the first that may be below 0 tells whether it is.
+    constexpr std::uint64_t first_negative = std::uint64_t{1} << 63;
+    const auto large = std::find_if(numbers->begin(), numbers->end(),
+                                    [](std::uint64_t number) { return number >= first_negative; });
+    const bool are_signed =
+        large == numbers->end() ||
+        field_column(*info)[static_cast<std::size_t>(large - numbers->begin())] < 0;
+    return WholeNumbers{std::move(numbers), are_signed};
   } catch (const DataError&) {  // numbers with a point, or none between two snapshots
     return std::nullopt;
   }

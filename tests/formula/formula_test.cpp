@@ -99,12 +99,12 @@ TEST(Formula, AsksForWholeNumbersOfAnyFieldThatIsComparedWithOneBeyondFloats) {
       std::vector<std::uint64_t>{16777216, 16777217, 18446744073709551615U});
   FormulaSources values = sources({{"x", {16777216, 16777216, 1.8e19}}});
   values.whole_numbers = [numbers](const std::string&, bool are_large) {
-    return are_large ? std::optional(WholeNumbers{numbers, true}) : std::nullopt;
+    return are_large ? std::optional(WholeNumbers{numbers, false}) : std::nullopt;
   };
   EXPECT_THAT(evaluate("x == 16777217", values, 3), ElementsAre(0, 1, 0));
   EXPECT_THAT(evaluate("x == 16777216", values, 3), ElementsAre(1, 0, 0));
   EXPECT_THAT(evaluate("x == 18446744073709551615", values, 3), ElementsAre(0, 0, 1));
-  EXPECT_THAT(evaluate("x > 16777217", values, 3), ElementsAre(0, 0, 0));
+  EXPECT_THAT(evaluate("x > 16777217", values, 3), ElementsAre(0, 0, 1));
 }
 
 TEST(Formula, AsksForAFieldOnceAndForNoOther) {
