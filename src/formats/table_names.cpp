@@ -38,11 +38,8 @@ std::string as_utf8(const std::string& name) {
 }
 
 std::string in_our_units(const std::string& unit) {
-  constexpr std::array<std::array<const char*, 2>, 5> words = {{{"cpc", "(a pc)"},
-                                                                {"ckpc", "(a kpc)"},
-                                                                {"cMpc", "(a Mpc)"},
-                                                                {"cGpc", "(a Gpc)"},
-                                                                {"Msol", "Msun"}}};
+  constexpr std::array<std::array<const char*, 2>, 5> words = {
+      {{"cpc", "a pc"}, {"ckpc", "a kpc"}, {"cMpc", "a Mpc"}, {"cGpc", "a Gpc"}, {"Msol", "Msun"}}};
   const auto is_letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
   };
@@ -52,7 +49,10 @@ std::string in_our_units(const std::string& unit) {
     const std::string word(next, end);
     const auto ours = std::find_if(words.begin(), words.end(),
                                    [&word](const auto& known) { return word == known[0]; });
-    result += ours == words.end() ? word : (*ours)[1];
+    const std::string text = ours == words.end() ? word : (*ours)[1];
+    const bool is_factor = !result.empty() || (end != unit.end() && (*end == '^' || *end == '*'));
+    const bool is_product = text.find(' ') != std::string::npos;
+    result += is_factor && is_product ? "(" + text + ")" : text;
     next = std::find_if(end, unit.end(), is_letter);
     result.append(end, next);
   }

@@ -301,6 +301,10 @@ void read_numbers(const Hdf5File& file, const std::string& group, SnapshotInfo& 
   const bool is_of_expansion = file.number("/", "cosmological_simulation").value_or(1) != 0;
   if (is_of_expansion) {
     info.redshift = find_number(file, {"redshift", "Redshift", "current_redshift"}, group);
+    const double scale_factor =
+        find_number(file, {"scale_factor", "expansion_factor"}, group).value_or(0);
+    if (!info.redshift && scale_factor > 0 && std::isfinite(scale_factor))
+      info.redshift = 1 / scale_factor - 1;
   }
   const double hubble_parameter = hubble_parameter_of(
       find_number(file, {"HubbleParam", "hubble_constant"}).value_or(0), info.notes);
