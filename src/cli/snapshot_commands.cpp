@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "cli/command_builder.h"
 #include "cli/commands.h"
 
@@ -19,7 +21,7 @@ void add_snapshot_question(CLI::App& sub, SnapshotQuestion& options) {
   sub.add_option("--skip-lines", options.skip_lines,
                  wrapped("Lines at the beginning of a text table that are no part of it"))
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()).description(""));
   sub.add_flag("--json", options.json, wrapped("Print JSON"));
 }
 

@@ -130,15 +130,22 @@ constexpr std::uint64_t largest_text_file = 16 * 1024 * 1024;
 
 }  // namespace
 
+std::string_view text_of(const MappedFile& file) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (file.size() == 0) return {};
+  std::string_view text(reinterpret_cast<const char*>(file.data()),
+                        static_cast<std::size_t>(file.size()));
+  const bool has_mark = text.substr(0, byte_order_mark.size()) == byte_order_mark;
+  return has_mark ? text.substr(byte_order_mark.size()) : text;
+}
+
 std::string read_text_file(const std::filesystem::path& path) {
   const auto file = MappedFile::open(path);
   if (file->size() > largest_text_file) {
     throw DataError(fmt::format("{}: found {} bytes, expected a text file of at most {}",
                                 path.string(), file->size(), largest_text_file));
   }
-  if (file->size() == 0) return "";
-  return std::string(reinterpret_cast<const char*>(file->data()),
-                     static_cast<std::size_t>(file->size()));
+  return std::string(text_of(*file));
 }
 
 }  // namespace splotchcl

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace splotchcl {
@@ -61,6 +62,9 @@ using FileMark = std::array<char, 16>;
 // Whether something is there that is not such a file, and must not be overwritten. One that has
 // been cut is.
 bool is_another_file(const std::filesystem::path& path, const FileMark& mark);
+
+// What a file holds as text, without the mark that editors and spreadsheets begin UTF-8 with.
+std::string_view text_of(const MappedFile& file);
 
 // A small text file as a whole. Throws DataError when it cannot be read, or is so large
 // that it is no text file of ours.

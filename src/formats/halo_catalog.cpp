@@ -169,6 +169,20 @@ TypeTable read_type_table(const Hdf5File& file, const char* path) {
   return table;
 }
 
+// Numbers of particles; offsets may be below 0 where a halo has none.
+TypeTable read_lengths(const Hdf5File& file, const char* path) {
+  TypeTable table = read_type_table(file, path);
+  for (std::size_t i = 0; i < table.numbers.size(); ++i) {
+    const auto number = static_cast<std::int64_t>(table.numbers[i]);
+    if (number >= 0) continue;
+    throw DataError(fmt::format(
+        "{}: {} holds {} for halo {}, expected 0 or more; the catalog is damaged, or was written "
+        "with numbers of too few bits",
+        file.path().string(), path, number, i / table.types));
+  }
+  return table;
+}
+
 int files_of(const Hdf5File& file) {
   for (const char* name : {"NumFiles", "NumFilesPerSnapshot"}) {
     const double files = file.number("Header", name).value_or(0);
@@ -182,7 +196,7 @@ HaloMembers read_by_lengths(const fs::path& path, std::uint64_t number, int type
   std::uint64_t offset = 0, haloes = 0;
   for (const fs::path& member : find_members(path, files_of(Hdf5File(path)))) {
     const Hdf5File file(member);
-    const TypeTable lengths = read_type_table(file, lengths_by_type);
+    const TypeTable lengths = read_lengths(file, lengths_by_type);
     if (number >= haloes + lengths.haloes) {
       for (std::uint64_t halo = 0; halo < lengths.haloes; ++halo)
         offset += lengths.at(halo, type);
@@ -315,8 +329,8 @@ class Subhaloes {
       : path_(path), members_(find_members(path, files_of(Hdf5File(path)))) {
     for (const fs::path& member : members_) {
       const Hdf5File file(member);
-      append(read_type_table(file, lengths_by_type), type, group_lengths_);
-      append(read_type_table(file, "/Subhalo/SubhaloLenType"), type, lengths_);
+      append(read_lengths(file, lengths_by_type), type, group_lengths_);
+      append(read_lengths(file, "/Subhalo/SubhaloLenType"), type, lengths_);
       const char* const owner =
           file.has("/Subhalo/SubhaloGroupNr") ? "/Subhalo/SubhaloGroupNr" : "/Subhalo/SubhaloGrNr";
       if (!file.has(owner)) continue;

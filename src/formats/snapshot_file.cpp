@@ -6,6 +6,7 @@
 #include <map>
 
 #include "formats/snapshot_format.h"
+#include "formats/text/table_layout.h"
 #include "snapshot/derived_snapshots.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
@@ -67,6 +68,15 @@ std::string describe_other(const fs::path& path) {
   if (const char* const kind = find_other_kind(path)) return kind;
   const auto file = MappedFile::open(path);
   const bool is_text = are_letters(content_of(*file).substr(0, 4096));
+  const auto rows = is_text ? find_rows_in_text(*file) : std::nullopt;
+  if (rows) {
+    return fmt::format(
+        "text with rows of {} columns from line {} on, after lines that do not name them; name "
+        "them in their order, as in read.columns = [\"x\", \"y\", \"z\", \"mass\"], \"-\" for "
+        "those "
+        "that are not needed",
+        rows->columns, rows->line);
+  }
   return is_text ? "text, but no table with three or more numbers in each line" : "";
 }
 

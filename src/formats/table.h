@@ -90,6 +90,9 @@ struct NameAndUnit {
 // Itself, or where it is no UTF-8 what it is in Latin-1, as older programs write it.
 std::string as_utf8(const std::string& name);
 
+// A unit with the words that we do not have as our products: "ckpc/h" as "a kpc/h".
+std::string in_our_units(const std::string& unit);
+
 // "x [kpc]" is x in kpc.
 NameAndUnit split_unit(const std::string& text);
 

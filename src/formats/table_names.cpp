@@ -37,13 +37,36 @@ std::string as_utf8(const std::string& name) {
   return text;
 }
 
+std::string in_our_units(const std::string& unit) {
+  constexpr std::array<std::array<const char*, 2>, 5> words = {
+      {{"cpc", "a pc"}, {"ckpc", "a kpc"}, {"cMpc", "a Mpc"}, {"cGpc", "a Gpc"}, {"Msol", "Msun"}}};
+  const auto is_letter = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  };
+  std::string result;
+  for (auto next = unit.begin(); next != unit.end();) {
+    const auto end = std::find_if_not(next, unit.end(), is_letter);
+    const std::string word(next, end);
+    const auto ours = std::find_if(words.begin(), words.end(),
+                                   [&word](const auto& known) { return word == known[0]; });
+    const std::string text = ours == words.end() ? word : (*ours)[1];
+    const bool is_factor = !result.empty() || (end != unit.end() && (*end == '^' || *end == '*'));
+    const bool is_product = text.find(' ') != std::string::npos;
+    result += is_factor && is_product ? "(" + text + ")" : text;
+    next = std::find_if(end, unit.end(), is_letter);
+    result.append(end, next);
+  }
+  return result;
+}
+
 NameAndUnit split_unit(const std::string& text) {
   for (const char* brackets : {"[]", "()"}) {
     const std::size_t open = text.find(brackets[0]);
     if (open == std::string::npos || open == 0 || text.back() != brackets[1]) continue;
     const std::string name = without_joints(text.substr(0, open), " \t");
     if (name.empty()) continue;
-    return {name, without_joints(text.substr(open + 1, text.size() - open - 2), " \t")};
+    return {name,
+            in_our_units(without_joints(text.substr(open + 1, text.size() - open - 2), " \t"))};
   }
   return {text, ""};
 }

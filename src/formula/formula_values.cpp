@@ -166,9 +166,11 @@ class ProgramWriter {
         number.operation == Operation::negate && operand(number, 0).operation == Operation::number;
     const bool is_number = number.operation == Operation::number || is_negative;
     if (field.operation != Operation::field || !is_number) return std::nullopt;
-    const std::optional<WholeNumbers> whole = whole_of(formula_.fields()[field.name]);
-    if (!whole) return std::nullopt;
     const double value = is_negative ? -operand(number, 0).number : number.number;
+    constexpr double first_that_floats_confuse = 16777216;
+    const std::optional<WholeNumbers> whole =
+        whole_of(formula_.fields()[field.name], std::abs(value) >= first_that_floats_confuse);
+    if (!whole) return std::nullopt;
     const auto exact = is_negative ? std::nullopt : number.whole;
     inputs_.emplace_back([=, found = *whole](std::size_t begin, std::size_t end, double* out) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -178,16 +180,16 @@ class ProgramWriter {
     return fmt::format("(f{}!=0)", inputs_.size() - 1);
   }
 
-  std::optional<WholeNumbers> whole_of(const std::string& field) {
-    const auto [found, is_new] = whole_.try_emplace(field);
-    if (is_new) found->second = sources_.whole_numbers(field);
+  std::optional<WholeNumbers> whole_of(const std::string& field, bool are_large) {
+    const auto [found, is_new] = whole_.try_emplace({field, are_large});
+    if (is_new) found->second = sources_.whole_numbers(field, are_large);
     return found->second;
   }
 
   std::string input(const std::string& field) {
     const auto [found, is_new] = input_of_.try_emplace(field, inputs_.size());
     if (is_new) {
-      const std::optional<WholeNumbers> whole = whole_of(field);
+      const std::optional<WholeNumbers> whole = whole_of(field, false);
       inputs_.push_back(whole ? rounded(field, *whole) : sources_.values(field));
     }
     return fmt::format("f{}", found->second);
@@ -223,7 +225,7 @@ class ProgramWriter {
   const FormulaSources& sources_;
   std::vector<FieldValues> inputs_;
   std::map<std::string, std::size_t> input_of_;
-  std::map<std::string, std::optional<WholeNumbers>> whole_;
+  std::map<std::pair<std::string, bool>, std::optional<WholeNumbers>> whole_;
 };
 
 }  // namespace

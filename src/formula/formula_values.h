@@ -29,8 +29,10 @@ bool holds_for_whole(Operation comparison, std::uint64_t value, bool is_signed, 
 // Where a formula's fields come from. Only those that it needs are asked for, each once.
 struct FormulaSources {
   std::function<FieldValues(const std::string& field)> values;
-  // Nothing: the field has no whole numbers.
-  std::function<std::optional<WholeNumbers>(const std::string& field)> whole_numbers;
+  // Nothing: the field has no whole numbers. `are_large`: it is compared with one that floats do
+  // not tell from others.
+  std::function<std::optional<WholeNumbers>(const std::string& field, bool are_large)>
+      whole_numbers;
 };
 
 // A formula's values, in double precision. A comparison with what is not a number does not hold,

@@ -135,7 +135,7 @@ void refuse_mask(const std::vector<std::uint64_t>& ids, const std::filesystem::p
 
 std::vector<std::uint64_t> read_id_list(const std::filesystem::path& path) {
   const auto file = MappedFile::open(path);
-  std::string_view rest(reinterpret_cast<const char*>(file->data()), file->size());
+  std::string_view rest = text_of(*file);
   std::vector<std::uint64_t> ids;
   for (std::size_t number = 1; !rest.empty(); ++number) {
     const std::string_view line = rest.substr(0, rest.find('\n'));

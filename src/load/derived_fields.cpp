@@ -219,7 +219,9 @@ std::shared_ptr<const FormulaValues> formula_values(const TypeFields& fields,
                                                     const std::string& key) {
   FormulaSources sources;
   sources.values = [&](const std::string& field) { return fields.plain_values(field, key); };
-  sources.whole_numbers = [&](const std::string& field) { return fields.whole_numbers(field); };
+  sources.whole_numbers = [&](const std::string& field, bool are_large) {
+    return fields.whole_numbers(field, are_large);
+  };
   return std::make_shared<const FormulaValues>(in_units_of(fields, formula, key), sources);
 }
 

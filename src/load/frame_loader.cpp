@@ -266,10 +266,14 @@ void FrameLoader::decide_reference(Part& part, const Camera& camera, const Frame
       drawn, frame, has_sample ? ParticlePass(drawn.particles.count) : part.reader.fields().pass(),
       has_sample ? static_cast<std::size_t>(tree->sample_stride) : 1);
   if (!reference && drawn.particles.count > 0) {
-    notes_.push_back(
-        fmt::format("component {}: the camera sees none of its particles; check camera.position, "
-                    "camera.look_at and the near and far limits",
-                    drawn.name));
+    const Column& weight = drawn.particles.weight;
+    const bool is_without = !weight.is_absent() && !(find_statistics(weight).maximum > 0);
+    notes_.push_back(fmt::format(
+        "component {}: {}", drawn.name,
+        is_without ? "all its particles have the weight 0, and it is not seen; masses and "
+                     "densities below 1e-45 are read as 0"
+                   : "the camera sees none of its particles; check camera.position, "
+                     "camera.look_at and the near and far limits"));
   }
   decided.is_seen = reference.has_value();
   decided.reference_column = reference.value_or(1);

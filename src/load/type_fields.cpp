@@ -147,17 +147,26 @@ bool is_called_id(const std::string& name) {
 
 }  // namespace
 
-std::optional<WholeNumbers> TypeFields::whole_numbers(const std::string& field) const {
+std::optional<WholeNumbers> TypeFields::whole_numbers(const std::string& field,
+                                                      bool are_large) const {
   using Numbers = std::vector<std::uint64_t>;
   if (canonical_field_name(field) == "id")
     return WholeNumbers{std::make_shared<const Numbers>(ids()), false};
   const FieldInfo* const info = find_field(*type_, field);
   const bool may_be_ids = info != nullptr && info->values_per_particle == 1 &&
-                          (info->name == "halo_id" || is_called_id(info->name));
+                          (are_large || info->name == "halo_id" || is_called_id(info->name));
   if (!may_be_ids) return std::nullopt;
   try {
-    return WholeNumbers{
-        std::make_shared<const Numbers>(snapshot_->read_integers(type_->type, info->name)), true};
+    auto numbers =
+        std::make_shared<const Numbers>(snapshot_->read_integers(type_->type, info->name));
+    // As a float the first that may be below 0 tells whether it is.
+    constexpr std::uint64_t first_negative = std::uint64_t{1} << 63;
+    const auto large = std::find_if(numbers->begin(), numbers->end(),
+                                    [](std::uint64_t number) { return number >= first_negative; });
+    const bool are_signed =
+        large == numbers->end() ||
+        field_column(*info)[static_cast<std::size_t>(large - numbers->begin())] < 0;
+    return WholeNumbers{std::move(numbers), are_signed};
   } catch (const DataError&) {  // numbers with a point, or none between two snapshots
     return std::nullopt;
   }
@@ -248,9 +257,9 @@ Column TypeFields::masses() const {
   if (find_field(*type_, "mass") != nullptr) return snapshot_->read(type_->type, "mass");
   if (type_->table_mass) return Column::uniform(static_cast<float>(*type_->table_mass));
   throw UsageError(fmt::format(
-      "{}: weight is \"mass\", but particles of type {} in {} have no masses; give them "
+      "{}: weight is \"mass\", but particles of type {} in {} have no masses{}; give them "
       "masses, or set weight to \"constant\"",
-      label_, type_->type, file()));
+      label_, type_->type, file(), why_left_out(snapshot_->info(), "mass")));
 }
 
 Column TypeFields::densities() const {
@@ -388,10 +397,10 @@ void TypeFields::refuse_field(const std::string& field, const std::string& key) 
   std::vector<std::string> all = names;
   all.insert(all.end(), derived.begin(), derived.end());
   throw UsageError(fmt::format(
-      "{}: {} is \"{}\", which particles of type {} in {} do not have, expected one of {}, or, "
+      "{}: {} is \"{}\", which particles of type {} in {} do not have{}, expected one of {}, or, "
       "derived, {}{}",
-      label_, key, field, type_->type, file(), fmt::join(names, ", "), fmt::join(derived, ", "),
-      did_you_mean(nearest_name(field, all))));
+      label_, key, field, type_->type, file(), why_left_out(snapshot_->info(), field),
+      fmt::join(names, ", "), fmt::join(derived, ", "), did_you_mean(nearest_name(field, all))));
 }
 
 void TypeFields::refuse_width(const FieldInfo& info, const std::string& field,

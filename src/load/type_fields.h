@@ -43,7 +43,7 @@ class TypeFields {
   Column plain_scalars(const std::string& field, const std::string& key) const;
   FieldValues plain_values(const std::string& field, const std::string& key) const;
   // Of identifiers, the type's own or those of haloes and others; nothing for other fields.
-  std::optional<WholeNumbers> whole_numbers(const std::string& field) const;
+  std::optional<WholeNumbers> whole_numbers(const std::string& field, bool are_large) const;
   const SnapshotInfo& snapshot_info() const { return snapshot_->info(); }
   // "component gas: color.field", which begins messages.
   std::string what(const std::string& key) const { return label_ + ": " + key; }

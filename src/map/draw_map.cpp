@@ -340,6 +340,13 @@ void draw_pixels(const MapPlan& plan, const Scene& scene, const ComponentFields&
   }
 }
 
+bool have_weight(const MapPlan& plan) {
+  for (std::size_t i = 0; i < plan.matter.count; ++i) {
+    if (plan.quantity.weight[i] > 0) return true;
+  }
+  return false;
+}
+
 void note_particles(const MapPlan& plan, const MapSettings& settings, const Map& map,
                     std::vector<std::string>& notes) {
   if (plan.component.size_factor != 1 && settings.size_factor == 1) {
@@ -359,6 +366,11 @@ void note_particles(const MapPlan& plan, const MapSettings& settings, const Map&
     note_outside(channels, plan.matter.count, notes);
   if (plan.matter.count > 0 && map.images == 0)
     notes.push_back("no particle reaches the map, which is empty");
+  if (plan.matter.count > 0 && !have_weight(plan)) {
+    notes.push_back(
+        "all particles have the weight 0, and the map is empty; numbers below 1e-45 are read as 0: "
+        "if theirs are, store them in a smaller unit");
+  }
 }
 
 }  // namespace

@@ -130,9 +130,9 @@ bool is_column(const MapSettings& settings) {
 // What a map needs masses for can often be had without.
 void require_masses(const ComponentFields& fields, const std::string& what, const char* instead) {
   if (fields.masses_are_known()) return;
-  throw UsageError(fmt::format("{}: {} needs masses, which its particles in {} do not have; {}",
+  throw UsageError(fmt::format("{}: {} needs masses, which its particles in {} do not have{}; {}",
                                fields.label(), what, fields.snapshot_info().files.front().string(),
-                               instead));
+                               why_left_out(fields.snapshot_info(), "mass"), instead));
 }
 
 // Volumes in cm^3 are beyond a float: in units of the first one that there is, where they are.

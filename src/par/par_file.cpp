@@ -19,9 +19,7 @@ namespace splotchcl::par {
 
 ParFile::ParFile(const std::string& text, std::string name_for_messages)
     : name_(std::move(name_for_messages)) {
-  const std::string byte_order_mark = "\xEF\xBB\xBF";
-  const bool has_mark = text.compare(0, byte_order_mark.size(), byte_order_mark) == 0;
-  std::istringstream lines(has_mark ? text.substr(byte_order_mark.size()) : text);
+  std::istringstream lines(text);
   std::string line;
   for (int number = 1; std::getline(lines, line); ++number)
     add(trimmed(line.substr(0, line.find('#'))), number);

@@ -164,15 +164,44 @@ Setting split_setting(const std::string& setting) {
   return {key, trimmed(setting.substr(equals + 1))};
 }
 
-toml::table parse_value(const std::string& text) {
-  if (find_deep_key(text) > 0) return toml::table{{"value", text}};
+namespace {
+
+// Numbers, or a list of them, as people write them: TOML wants digits on both sides of a point,
+// 0.5 for .5 and 1.0 for 1. - other texts stay.
+std::string with_digits_around_points(const std::string& text) {
+  if (text.find_first_not_of("0123456789.,+-eE[] \t") != std::string::npos) return text;
+  const auto is_digit = [&text](std::size_t i) {
+    return i < text.size() && text[i] >= '0' && text[i] <= '9';
+  };
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_point = text[i] == '.';
+    const bool is_after_digit = i > 0 && is_digit(i - 1), is_before_digit = is_digit(i + 1);
+    if (is_point && !is_after_digit && !is_before_digit) return text;
+    if (is_point && !is_after_digit) result += '0';
+    result += text[i];
+    if (is_point && !is_before_digit) result += '0';
+  }
+  return result;
+}
+
+std::optional<toml::table> parse_as_toml(const std::string& text) {
   try {
     toml::table table = parse_toml("value = " + text);
     if (table.size() == 1 && table.contains("value")) return table;
   } catch (const toml::parse_error&) {
     // A bare word: palette=magma.
   }
-  return toml::table{{"value", text}};
+  return std::nullopt;
+}
+
+}  // namespace
+
+toml::table parse_value(const std::string& text) {
+  if (find_deep_key(text) > 0) return toml::table{{"value", text}};
+  std::optional<toml::table> table = parse_as_toml(text);
+  if (!table) table = parse_as_toml(with_digits_around_points(text));
+  return table ? std::move(*table) : toml::table{{"value", text}};
 }
 
 KeyAddress locate(const std::string& key, const Scene& scene, const std::string& where) {

@@ -282,6 +282,12 @@ SizeFactors factors_of_sizes(SnapshotInfo& info) {
     FieldInfo* const size = find_own(type, "smoothing_length");
     if (position == nullptr || size == nullptr) continue;
     const auto ratio = ratio_of_known_units(size->unit, position->unit, unit_factors(info));
+    if (!ratio && !size->unit.empty() && !position->unit.empty()) {
+      info.notes.push_back(
+          fmt::format("smoothing_length of type {} is in {} and position in {}, which cannot be "
+                      "compared: they are taken for one unit; read.units may say what they are in",
+                      type.type, size->unit, position->unit));
+    }
     if (!ratio || std::abs(*ratio - 1) < rounding) continue;
     info.notes.push_back(fmt::format("smoothing_length of type {} is converted from {} to {}",
                                      type.type, size->unit, position->unit));
@@ -332,7 +338,8 @@ std::unique_ptr<Snapshot> with_named_units(std::unique_ptr<Snapshot> snapshot,
     if (units_of_system(text).empty()) name_unit(parse_field_unit(text), info);
   }
   SizeFactors factors = factors_of_sizes(info);
-  if (units.empty() && factors.empty()) return snapshot;
+  const bool is_told = info.notes.size() != snapshot->info().notes.size();
+  if (units.empty() && factors.empty() && !is_told) return snapshot;
   return std::make_unique<NamedUnitsSnapshot>(std::move(snapshot), std::move(info),
                                               std::move(factors));
 }

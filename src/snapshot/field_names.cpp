@@ -59,6 +59,22 @@ char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
+// Whether a label is a name in words that are apart or joined: "Smoothing Length" and
+// "smoothing_lengths" as "SmoothingLength(s)". Short ones may mean something else: n_e is no NE.
+bool is_same_name(std::string_view label, std::string_view known) {
+  constexpr std::size_t short_name = 5;
+  if (known.size() <= short_name) return equal_ignoring_case(label, known);
+  const auto next_letter = [](std::string_view text, std::size_t i) {
+    return std::min(text.find_first_not_of(" _-", i), text.size());
+  };
+  std::size_t i = next_letter(label, 0), j = next_letter(known, 0);
+  while (i < label.size() && j < known.size() && lower(label[i]) == lower(known[j])) {
+    i = next_letter(label, i + 1);
+    j = next_letter(known, j + 1);
+  }
+  return i == label.size() && j == known.size();
+}
+
 std::string_view without_trailing_blanks(std::string_view text) {
   const std::size_t last = text.find_last_not_of(' ');
   return text.substr(0, last == std::string_view::npos ? 0 : last + 1);
@@ -74,9 +90,9 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
 std::string canonical_field_name(std::string_view label) {
   const std::string_view text = without_trailing_blanks(label);
   for (const FieldNames& field : known_fields()) {
-    if (equal_ignoring_case(text, field.canonical)) return field.canonical;
+    if (is_same_name(text, field.canonical)) return field.canonical;
     for (const char* const known : field.labels) {
-      if (equal_ignoring_case(text, known)) return field.canonical;
+      if (is_same_name(text, known)) return field.canonical;
     }
   }
   return {};
@@ -157,6 +173,27 @@ const FieldInfo& require_field(const SnapshotInfo& info, int type, std::string_v
     names.push_back(field.name);
   throw DataError(fmt::format("{}: particles of type {} have no field '{}'; they have {}",
                               info.files.front().string(), type, name, fmt::join(names, ", ")));
+}
+
+std::string why_left_out(const SnapshotInfo& info, std::string_view name) {
+  if (name.empty()) return {};
+  const std::string meaning = canonical_field_name(name);
+  const auto names_it = [&](std::string_view note) {
+    while (!note.empty()) {
+      const std::size_t end = std::min(note.find_first_of(" ,:;()/"), note.size());
+      const std::string_view word = note.substr(0, end);
+      const bool is_it = equal_ignoring_case(word, name) ||
+                         (!meaning.empty() && canonical_field_name(word) == meaning);
+      if (is_it) return true;
+      note.remove_prefix(std::min(end + 1, note.size()));
+    }
+    return false;
+  };
+  const auto found =
+      std::find_if(info.notes.begin(), info.notes.end(), [&](const std::string& note) {
+        return note.find("left out") != std::string::npos && names_it(note);
+      });
+  return found == info.notes.end() ? std::string() : " (" + *found + ")";
 }
 
 const FieldInfo& require_ids(const SnapshotInfo& info, int type) {

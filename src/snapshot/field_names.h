@@ -40,6 +40,9 @@ const ParticleTypeInfo& require_type(const SnapshotInfo& info, int type);
 // The field as find_field has it, or a DataError that lists those the type has.
 const FieldInfo& require_field(const SnapshotInfo& info, int type, std::string_view name);
 
+// " (the note)" of one that says why the field was left out of what the file has; else empty.
+std::string why_left_out(const SnapshotInfo& info, std::string_view name);
+
 // The field of ids, or a DataError.
 const FieldInfo& require_ids(const SnapshotInfo& info, int type);
 // For a field that does not hold one whole number per particle.

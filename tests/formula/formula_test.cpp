@@ -24,7 +24,7 @@ FieldValues values_of(std::vector<double> values) {
 FormulaSources sources(const std::map<std::string, std::vector<double>>& fields) {
   FormulaSources sources;
   sources.values = [fields](const std::string& name) { return values_of(fields.at(name)); };
-  sources.whole_numbers = [](const std::string&) { return std::nullopt; };
+  sources.whole_numbers = [](const std::string&, bool) { return std::nullopt; };
   return sources;
 }
 
@@ -84,14 +84,27 @@ TEST(Formula, ComparesWholeNumbersOf64BitsExactly) {
   const auto ids = std::make_shared<const std::vector<std::uint64_t>>(
       std::vector<std::uint64_t>{9007199254740993, 9007199254740992, 18446744073709551615U});
   FormulaSources unsigned_ids = sources({}), signed_ids = sources({});
-  unsigned_ids.whole_numbers = [ids](const std::string&) { return WholeNumbers{ids, false}; };
-  signed_ids.whole_numbers = [ids](const std::string&) { return WholeNumbers{ids, true}; };
+  unsigned_ids.whole_numbers = [ids](const std::string&, bool) { return WholeNumbers{ids, false}; };
+  signed_ids.whole_numbers = [ids](const std::string&, bool) { return WholeNumbers{ids, true}; };
   EXPECT_THAT(evaluate("id == 9007199254740993", unsigned_ids, 3), ElementsAre(1, 0, 0));
   EXPECT_THAT(evaluate("9007199254740992 < id", unsigned_ids, 3), ElementsAre(1, 0, 1));
   EXPECT_THAT(evaluate("!(id < 18446744073709551615)", unsigned_ids, 3), ElementsAre(0, 0, 1));
   EXPECT_THAT(evaluate("id >= 0", signed_ids, 3), ElementsAre(1, 1, 0));
   EXPECT_THAT(evaluate("id == -1", signed_ids, 3), ElementsAre(0, 0, 1));
   EXPECT_THROW(evaluate("id / 2", unsigned_ids, 3), DataError);
+}
+
+TEST(Formula, AsksForWholeNumbersOfAnyFieldThatIsComparedWithOneBeyondFloats) {
+  const auto numbers = std::make_shared<const std::vector<std::uint64_t>>(
+      std::vector<std::uint64_t>{16777216, 16777217, 18446744073709551615U});
+  FormulaSources values = sources({{"x", {16777216, 16777216, 1.8e19}}});
+  values.whole_numbers = [numbers](const std::string&, bool are_large) {
+    return are_large ? std::optional(WholeNumbers{numbers, false}) : std::nullopt;
+  };
+  EXPECT_THAT(evaluate("x == 16777217", values, 3), ElementsAre(0, 1, 0));
+  EXPECT_THAT(evaluate("x == 16777216", values, 3), ElementsAre(1, 0, 0));
+  EXPECT_THAT(evaluate("x == 18446744073709551615", values, 3), ElementsAre(0, 0, 1));
+  EXPECT_THAT(evaluate("x > 16777217", values, 3), ElementsAre(0, 0, 1));
 }
 
 TEST(Formula, AsksForAFieldOnceAndForNoOther) {

@@ -28,7 +28,7 @@ FormulaSources sources() {
         *out++ = 1.5 * static_cast<double>(i) - 1;
     };
   };
-  sources.whole_numbers = [](const std::string& name) -> std::optional<WholeNumbers> {
+  sources.whole_numbers = [](const std::string& name, bool) -> std::optional<WholeNumbers> {
     if (name != "id") return std::nullopt;
     const std::vector<std::uint64_t> ids = {1, 9007199254740993, 18446744073709551615U};
     return WholeNumbers{std::make_shared<const std::vector<std::uint64_t>>(ids), false};

@@ -288,6 +288,12 @@ TEST(LoadFrameReference, SaysWhenTheCameraSeesNothing) {
   EXPECT_THAT(notes, ElementsAre(HasSubstr("sees none of its particles")));
 }
 
+TEST(LoadFrameReference, SaysWhenNoParticleHasAWeight) {
+  MemorySnapshot row = centered_gas_row();
+  row.add(0, "mass", std::vector<float>(5, 0));
+  EXPECT_THAT(notes_of(gas(), row), ElementsAre(HasSubstr("all its particles have the weight 0")));
+}
+
 TEST(LoadFrame, HasNothingToSayWhenNothingIsOdd) {
   EXPECT_THAT(notes_of(gas(), centered_gas_row()), IsEmpty());
 }

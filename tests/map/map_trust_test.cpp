@@ -199,6 +199,15 @@ TEST(MapTrust, ABoxOfThreeSidesIsPeriodicAlongEach) {
   EXPECT_NEAR(sum(from_the_side) * from_the_side.pixel * from_the_side.pixel, 128, 1e-3);
 }
 
+TEST(MapTrust, OfParticlesWithoutAnyWeightSaysWhyItIsEmpty) {
+  std::vector<std::string> notes;
+  EXPECT_EQ(sum(map_of(map_scene(), one_particle({{0, 0, 0}}, 4, 0).snapshot(), &notes)), 0);
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("all particles have the weight 0")));
+  notes.clear();
+  map_of(map_scene(), one_particle({{0, 0, 0}}, 4, 1e-30F).snapshot(), &notes);
+  EXPECT_THAT(notes, Each(Not(HasSubstr("the weight 0"))));
+}
+
 TEST(MapTrust, APartCutOutOfABoxFillsItsMap) {
   Gas gas = test::random_gas(200, 4, 0.5F, 1);
   for (float& x : gas.position)

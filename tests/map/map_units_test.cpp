@@ -80,6 +80,16 @@ TEST(MapUnits, AreNeverGuessed) {
   EXPECT_THAT(refusal(scene), HasSubstr("code_mass/code_length^2"));
 }
 
+TEST(MapUnits, ThatLackTheSnapshotsFactorsSayWhich) {
+  test::MemorySnapshot snapshot = wide_particle().snapshot();
+  snapshot.set_unit(0, "mass", "Msun/h");
+  snapshot.set_unit(0, "position", "a kpc/h");
+  Scene scene = map_scene();
+  scene.map.unit = "Msun/pc^2";
+  EXPECT_THAT(refusal_by<Error>([&] { map_of(scene, snapshot); }),
+              HasSubstr("does not say the numbers for a and h"));
+}
+
 TEST(MapUnits, ThatDoNotExistAreToldBeforeUnitsThatAreMissing) {
   Scene scene = map_scene();
   scene.map.unit = "furlong";

@@ -424,6 +424,8 @@ def test_shapes_have_figures(tmp_path, what, ending):
     ({"voxels": 8192}, "GB of memory"),
     ({"voxels": [4, 0, 4]}, "map.voxels"),
     ({"voxels": 0}, "voxels: found 0, expected at least 1"),
+    ({"voxels": 3.5}, "map.voxels: found floating-point 3.5"),
+    ({"histogram": ("x", "y"), "bins": 2.5}, "map.bins: found floating-point 2.5"),
     ({"profile": 0}, "profile: found 0, expected at least 1"),
     ({"center": [1.0, 2.0]}, "map.center"),
     ({"histogram": ("x",)}, "expected two"),
@@ -435,6 +437,14 @@ def test_shapes_have_figures(tmp_path, what, ending):
 def test_wrong_shapes_are_refused(wrong, words):
     with pytest.raises(UsageError, match=words):
         drawn(matter(1), **wrong)
+
+
+@pytest.mark.parametrize("what", [
+    {"voxels": 4}, {"healpix": 4}, {"profile": 4}, {"histogram": ("x", "y"), "bins": 4},
+], ids=lambda what: next(iter(what)))  # fmt: skip
+def test_whole_numbers_may_be_those_of_numpy(what):
+    of_numpy = {name: np.int64(value) if value == 4 else value for name, value in what.items()}
+    assert np.array_equal(drawn(matter(1), **of_numpy).values, drawn(matter(1), **what).values, equal_nan=True)
 
 
 def test_a_profile_is_told_in_the_unit_that_its_radii_have():

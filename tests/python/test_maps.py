@@ -81,11 +81,11 @@ def test_a_unit_is_converted(universe):
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"field": "temprature"}, {"view": "zx"}, {"unit": "K"}, {"width": -1.0}]
+    "wrong", [{"field": "temprature"}, {"view": "zx"}, {"unit": "K"}, {"width": -1.0}, {"size": (16.5, 16)}]
 )
 def test_a_wrong_map_is_refused(universe, wrong):
     with pytest.raises(UsageError):
-        splotchcl.column(universe, types="gas", size=(16, 16), **wrong)
+        splotchcl.column(universe, **{"types": "gas", "size": (16, 16)} | wrong)
 
 
 def test_fields_of_a_snapshot_are_arrays(universe):

@@ -1,7 +1,9 @@
 """Masks, identifiers and wind among stars, which conditions choose."""
 
+import h5py
 import numpy as np
 import pytest
+import splotchcl
 from odd import (
     STARS,
     assert_draws_alone,
@@ -64,6 +66,20 @@ def test_identifiers_beyond_floats_select_exactly(odd_files):
     assert [np.count_nonzero(mask) for mask in masks.values()] == [200, 200, 1]
     for condition, mask in masks.items():
         assert_draws_alone(path, condition, mask, h=2)
+
+
+# Whatever their field is called.
+@pytest.mark.parametrize("name", ["tracer", "TracerID"])
+@pytest.mark.parametrize("first", [-4, 2**60, 2**64 - 9])
+def test_whole_numbers_beyond_floats_are_compared_exactly(tmp_path, name, first):
+    path = tmp_path / "plain.hdf5"
+    with h5py.File(path, "w") as file:
+        file["pos"], file["h"] = np.random.default_rng(1).random((9, 3)), np.full(9, 0.1)
+        file[name] = np.array(range(first, first + 9), np.int64 if first < 0 else np.uint64)
+    for condition, count in ((f"{name} == {first + 5}", 1), (f"{name} != {first}", 8), (f"{name} >= {first + 2}", 7),
+                             (f"{name} < 2", 6 if first < 0 else 0)):
+        drawn = splotchcl.column(path, "counts", where=condition, center=(0.5, 0.5, 0.5), width=3, size=(16, 16))
+        assert drawn.values.sum(dtype=float) == pytest.approx(count, rel=1e-4), condition
 
 
 # A list of places in the file, in place of ids, finds some of them.

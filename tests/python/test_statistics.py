@@ -95,7 +95,7 @@ def test_a_profile_of_a_file_is_that_of_its_arrays(universe):
 
 @pytest.mark.parametrize("wrong", [
     {"center": "box"}, {"center": (1, 2)}, {"edges": [1, 0]}, {"edges": [1]}, {"inner": 2, "outer": 1},
-    {"types": ()}, {"types": "stars"}, {"field": "nothing"},
+    {"types": ()}, {"types": "stars"}, {"field": "nothing"}, {"bins": 2.5}, {"bins": (2, 3)},
 ])  # fmt: skip
 def test_wrong_profiles_are_refused(wrong):
     with pytest.raises(UsageError):
@@ -114,6 +114,17 @@ def test_a_histogram_holds_all_weights():
     assert found.values.shape == (8, 16)
     assert found.values.sum() == pytest.approx(arrays["mass"].sum(dtype=float))
     assert found.outside == 0 and found.bad == 0
+
+
+@pytest.mark.parametrize("bins", [2.5, 0, (2, 3, 4), (2,), "4"])
+def test_wrong_bins_are_refused(bins):
+    with pytest.raises(UsageError, match="bins"):
+        splotchcl.histogram(Particles().gas(**two_fields()), "density", "temperature", bins=bins)
+
+
+def test_bins_may_be_a_number_of_numpy():
+    found = splotchcl.histogram(Particles().gas(**two_fields()), "density", "temperature", bins=np.int64(3))
+    assert found.values.shape == (3, 3)
 
 
 def test_bins_are_even_in_what_spans_a_hundredfold():

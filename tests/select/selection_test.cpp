@@ -145,6 +145,12 @@ TEST_F(SelectionByIds, AllowsCommentsBlankLinesAndAnyOrder) {
               ElementsAre(1, 5));
 }
 
+TEST_F(SelectionByIds, AllowsTheMarkThatEditorsBeginTextsWith) {
+  EXPECT_THAT(drawn(listing("\xef\xbb\xbf"
+                            "1152921504606846980\n")),
+              ElementsAre(5));
+}
+
 TEST_F(SelectionByIds, TakesAnArrayOfNumpy) {
   std::string bytes = numpy_header("'<u8'", 2);
   for (const std::uint64_t id : {(1ull << 60) + 4, (1ull << 60) + 1}) {

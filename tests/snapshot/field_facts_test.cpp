@@ -53,6 +53,16 @@ TEST(FieldNames, AFieldIsFoundByCanonicalNameAndByAnyLabel) {
   EXPECT_EQ(find_field(type, "density"), nullptr);
 }
 
+TEST(FieldNames, OfFieldsThatWereLeftOutTellWhy) {
+  SnapshotInfo info;
+  info.notes = {"particles have no density",
+                "left out, as they have other than 9 rows: Masses (8), s"};
+  for (const char* name : {"mass", "Masses", "S"})
+    EXPECT_EQ(why_left_out(info, name), " (" + info.notes.back() + ")") << name;
+  for (const char* name : {"density", "row", ""})
+    EXPECT_EQ(why_left_out(info, name), "") << name;
+}
+
 TEST(FieldNames, UnknownLabelsKeepTheirSpellingAndAreFoundInAnyCase) {
   const ParticleTypeInfo type = type_with({"Voronoi_Volume"});
   EXPECT_EQ(type.fields[0].name, "Voronoi_Volume");

@@ -60,6 +60,7 @@ class GadgetBinarySnapshot : public Snapshot {
 
  private:
   std::vector<StoredValues> find_parts(int type, const std::string& label) const;
+  std::vector<const GadgetBlock*> blocks_of_all_members(int type) const;
   bool is_in_every_member(int type, const GadgetBlock& block) const;
   void find_fields(ParticleTypeInfo& type);
   void choose_origin();
@@ -81,6 +82,21 @@ GadgetBinarySnapshot::GadgetBinarySnapshot(const std::filesystem::path& path) {
   choose_origin();
 }
 
+// Each label once, as the first file has it that does.
+std::vector<const GadgetBlock*> GadgetBinarySnapshot::blocks_of_all_members(int type) const {
+  std::vector<const GadgetBlock*> blocks;
+  for (const Member& member : members_) {
+    if (member.count(type) == 0) continue;
+    for (const GadgetBlock& block : member.blocks) {
+      const bool is_known =
+          std::any_of(blocks.begin(), blocks.end(),
+                      [&block](const GadgetBlock* known) { return known->label == block.label; });
+      if ((block.layout.types >> type & 1U) != 0 && !is_known) blocks.push_back(&block);
+    }
+  }
+  return blocks;
+}
+
 bool GadgetBinarySnapshot::is_in_every_member(int type, const GadgetBlock& block) const {
   return std::all_of(members_.begin(), members_.end(), [&](const Member& member) {
     if (member.count(type) == 0) return true;
@@ -90,17 +106,14 @@ bool GadgetBinarySnapshot::is_in_every_member(int type, const GadgetBlock& block
 }
 
 void GadgetBinarySnapshot::find_fields(ParticleTypeInfo& type) {
-  const auto member = std::find_if(members_.begin(), members_.end(),
-                                   [&](const Member& m) { return m.count(type.type) > 0; });
-  for (const GadgetBlock& block : member->blocks) {
-    if ((block.layout.types >> type.type & 1U) == 0) continue;
-    if (!is_in_every_member(type.type, block)) {
+  for (const GadgetBlock* const block : blocks_of_all_members(type.type)) {
+    if (!is_in_every_member(type.type, *block)) {
       info_.notes.push_back(fmt::format(
           "block {} of type {} left out: not every file of the snapshot has it in the same form",
-          block.label, type.type));
+          block->label, type.type));
       continue;
     }
-    type.fields.push_back({"", block.label, block.layout.values_per_particle, ""});
+    type.fields.push_back({"", block->label, block->layout.values_per_particle, ""});
   }
   add_table_mass(type, "mass table", info_.notes);
   name_fields(type);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "snapshot/field_names.h"
+#include "snapshot/stated_numbers.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -47,6 +48,10 @@ bool is_cosmological(const GadgetHeader& header) {
   constexpr double rounding = 1e-4;
   return header.omega_matter > 0 && header.time > 0 &&
          std::abs(header.time * (1 + header.redshift) - 1) < rounding;
+}
+
+std::vector<double> sides_of(const BoxSides& box) {
+  return box.is_cube() ? std::vector{box[0]} : std::vector{box[0], box[1], box[2]};
 }
 
 }  // namespace
@@ -157,7 +162,7 @@ void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::
 void note_other_scale_factor(SnapshotInfo& info) {
   constexpr double rounding = 1e-3;
   const double redshift = info.redshift.value_or(0);
-  const bool may_be_one = info.time > 0 && info.time <= 1 && redshift != 0;
+  const bool may_be_one = info.time > 0 && info.time <= 1 && info.redshift.has_value();
   if (info.cosmology || !may_be_one || std::abs(info.time * (1 + redshift) - 1) < rounding) return;
   info.notes.push_back(
       fmt::format("the header's time, {}, is no scale factor of its redshift, {}: a is {:.6g} in "
@@ -169,8 +174,9 @@ void describe(const GadgetHeader& header, SnapshotInfo& info) {
   info.time = header.time;
   // Runs without cosmology write a redshift of 0 that means nothing.
   if (header.omega_matter > 0 || header.redshift != 0) info.redshift = header.redshift;
-  if (header.box_size && header.box_size->are_lengths()) info.box_size = header.box_size;
-  if (header.hubble_parameter > 0) info.hubble_parameter = header.hubble_parameter;
+  if (header.box_size) info.box_size = box_stated(sides_of(*header.box_size), info.notes);
+  const double hubble_parameter = hubble_parameter_of(header.hubble_parameter, info.notes);
+  if (hubble_parameter > 0) info.hubble_parameter = hubble_parameter;
   if (is_cosmological(header)) {
     // kpc/h and km/s, as most have them: the header does not say.
     constexpr double hubble_rate = 0.1;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -182,6 +183,7 @@ class GadgetHdf5Snapshot : public Snapshot {
   bool has_times_for_rates(const FieldInfo& field) const;
   void note_negative_rates(const ParticleTypeInfo& type);
   static void name_unit_of_table_mass(const Hdf5File& file, ParticleTypeInfo& type);
+  std::vector<const Hdf5Field*> fields_of_all_members(int type) const;
   bool is_in_every_member(int type, const Hdf5Field& field) const;
   void check_units(const std::vector<Hdf5Values>& parts) const;
   std::vector<Hdf5Values> find_parts(int type, const std::string& label) const;
@@ -225,9 +227,10 @@ void GadgetHdf5Snapshot::read_dialect() {
   }
   if (!is_swift) return;
   // SWIFT stores the kernel's scale, not its support.
-  const auto gamma = file.number("HydroScheme", "Kernel gamma");
-  smoothing_length_factor_ = gamma.value_or(cubic_spline_gamma);
-  if (gamma || !file.has("PartType0")) return;
+  const double gamma = file.number("HydroScheme", "Kernel gamma").value_or(0);
+  const bool is_stated = gamma > 0 && std::isfinite(gamma);
+  smoothing_length_factor_ = is_stated ? gamma : cubic_spline_gamma;
+  if (is_stated || !file.has("PartType0")) return;
   info_.notes.push_back(
       "HydroScheme does not say SWIFT's Kernel gamma: the cubic spline's is taken, which reaches "
       "1.8257 times the smoothing lengths in the file");
@@ -249,6 +252,22 @@ void GadgetHdf5Snapshot::read_motion() {
   if (has_gizmo_units(file)) name_gizmo_units(file, info_);
 }
 
+// Each once, as the first file has it that does.
+std::vector<const Hdf5Field*> GadgetHdf5Snapshot::fields_of_all_members(int type) const {
+  std::vector<const Hdf5Field*> fields;
+  for (const Hdf5Member& member : members_) {
+    const auto of_type = member.fields.find(type);
+    if (of_type == member.fields.end()) continue;
+    for (const Hdf5Field& field : of_type->second) {
+      const bool is_known =
+          std::any_of(fields.begin(), fields.end(),
+                      [&field](const Hdf5Field* known) { return known->label == field.label; });
+      if (!is_known) fields.push_back(&field);
+    }
+  }
+  return fields;
+}
+
 bool GadgetHdf5Snapshot::is_in_every_member(int type, const Hdf5Field& field) const {
   return std::all_of(members_.begin(), members_.end(), [&](const Hdf5Member& member) {
     if (member.fields.count(type) == 0) return true;
@@ -263,15 +282,15 @@ void GadgetHdf5Snapshot::find_fields(ParticleTypeInfo& type) {
   });
   const Hdf5File file(member->path);
   const UnitsOfFile units = read_units(file);
-  for (const Hdf5Field& field : member->fields.at(type.type)) {
-    if (!is_in_every_member(type.type, field)) {
+  for (const Hdf5Field* const field : fields_of_all_members(type.type)) {
+    if (!is_in_every_member(type.type, *field)) {
       info_.notes.push_back(
           fmt::format("dataset {} left out: not every file of the snapshot has it in the same form",
-                      field.dataset.path));
+                      field->dataset.path));
       continue;
     }
-    const std::string unit = read_field_unit(file, field.dataset, units);
-    type.fields.push_back({"", field.label, field.values_per_particle, unit});
+    const std::string unit = read_field_unit(file, field->dataset, units);
+    type.fields.push_back({"", field->label, field->values_per_particle, unit});
   }
   add_table_mass(type, "MassTable", info_.notes);
   name_fields(type);

@@ -11,6 +11,7 @@
 #include "formats/hdf5/hdf5_units.h"
 #include "scene/constants.h"
 #include "snapshot/field_names.h"
+#include "snapshot/stated_numbers.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -77,10 +78,10 @@ std::vector<std::uint64_t> read_counts(const Hdf5File& file, const char* attribu
 }
 
 // One length for all axes, or one for each.
-std::optional<BoxSides> read_box_size(const Hdf5File& file) {
+std::optional<BoxSides> read_box_size(const Hdf5File& file, std::vector<std::string>& notes) {
   auto sides = file.numbers("Header", "BoxSize");
   if (!sides) sides = file.numbers("Parameters", "BoxSize");
-  return sides ? box_of(*sides) : std::nullopt;
+  return sides ? box_stated(*sides, notes) : std::nullopt;
 }
 
 // What is a text that is no number says nothing to us.
@@ -92,6 +93,24 @@ void note_texts(const Hdf5File& file, std::vector<std::string>& notes) {
     notes.push_back(fmt::format("Header/{} is the text \"{}\", not a number: ignored", name,
                                 text->substr(0, 40)));
   }
+}
+
+// Where the header does not state it, that of the scale factor.
+double read_redshift(const Hdf5File& file, const GadgetHeader& header,
+                     std::vector<std::string>& notes) {
+  if (const auto redshift = file.number("Header", "Redshift")) return *redshift;
+  const bool may_be_time = header.omega_matter > 0 && !is_swift_file(file);
+  const double scale_factor =
+      find_number(file, {{"Header", "Scale-factor"}, {"Header", "ExpansionFactor"}},
+                  may_be_time ? header.time : 0);
+  if (!(scale_factor > 0 && scale_factor <= 1)) return 0;
+  const double redshift = 1 / scale_factor - 1;
+  if (redshift > 0) {
+    notes.push_back(
+        fmt::format("the header states no redshift: {:.6g} follows from the scale factor, {}",
+                    redshift, scale_factor));
+  }
+  return redshift;
 }
 
 }  // namespace
@@ -135,11 +154,12 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
   const double files =
       find_number(file, {{"Header", "NumFilesPerSnapshot"}, {"Header", "NumFiles"}}, 1);
   header.files = files >= 1 && files <= 1e9 ? static_cast<int>(files) : 1;
-  header.box_size = read_box_size(file);
-  header.hubble_parameter = find_number(
-      file, {{"Header", "HubbleParam"}, {"Parameters", "HubbleParam"}, {"Cosmology", "h"}}, 0);
+  header.box_size = read_box_size(file, notes);
+  header.hubble_parameter = hubble_parameter_of(
+      find_number(
+          file, {{"Header", "HubbleParam"}, {"Parameters", "HubbleParam"}, {"Cosmology", "h"}}, 0),
+      notes);
   if (is_without_cosmology(file)) return header;
-  header.redshift = file.number("Header", "Redshift").value_or(0);
   header.omega_matter = find_number(file,
                                     {{"Header", "Omega0"},
                                      {"Header", "Omega_Matter"},
@@ -152,6 +172,7 @@ GadgetHeader read_hdf5_header(const Hdf5File& file, std::vector<std::string>& no
                                      {"Parameters", "OmegaLambda"},
                                      {"Cosmology", "Omega_lambda"}},
                                     0);
+  header.redshift = read_redshift(file, header, notes);
   return header;
 }
 

@@ -178,12 +178,13 @@ bool append_whole_floats(const Hdf5File& file, const Hdf5Dataset& dataset,
   const double largest = dataset.is_single_precision() ? 16777216.0 : 9007199254740992.0;
   bool are_whole = true;
   for_pieces(file, dataset, [&](std::uint64_t first, std::uint64_t rows) {
+    if (!are_whole) return;
     std::vector<double> found(rows);
     file.read_rows(dataset, first, rows, found.data());
     for (const double value : found) {
-      const bool is_whole = std::abs(value) <= largest && value == std::floor(value);
-      are_whole = are_whole && is_whole;
-      values.push_back(is_whole ? static_cast<std::uint64_t>(static_cast<std::int64_t>(value)) : 0);
+      are_whole = are_whole && std::abs(value) <= largest && value == std::floor(value);
+      if (!are_whole) return;
+      values.push_back(static_cast<std::uint64_t>(static_cast<std::int64_t>(value)));
     }
   });
   return are_whole;

@@ -67,20 +67,11 @@ void add_two_axes(const std::string& name, const Hdf5Dataset& dataset, Hdf5Colum
   }
 }
 
-// As netCDF keeps real numbers in few bits.
-void unpack(const Hdf5File& file, Hdf5Column& column) {
-  Hdf5Column::Term& term = column.terms.front();
-  if (term.dataset.kind != Hdf5Dataset::Kind::integer) return;
-  term.factor = file.number(term.dataset.path, "scale_factor").value_or(1);
-  column.constant = file.number(term.dataset.path, "add_offset").value_or(0);
-}
-
-void add_dataset(const Hdf5File& file, Hdf5Dataset dataset, Hdf5Columns& found) {
+void add_dataset(Hdf5Dataset dataset, Hdf5Columns& found) {
   const std::string name = field_label(dataset.label()), path = dataset.path;
   dataset.has_axes_first = has_axes_first(dataset);
   if (is_column(dataset)) {
     found.columns.push_back(column_of(name, path, std::move(dataset)));
-    unpack(file, found.columns.back());
   } else if (is_plane(dataset)) {
     add_two_axes(name, dataset, found);
   } else {
@@ -272,7 +263,7 @@ Hdf5Columns columns_of_group(const Hdf5File& file, const std::string& group) {
       add_number_for_all(file, dataset, found);
       continue;
     }
-    add_dataset(file, std::move(dataset), found);
+    add_dataset(std::move(dataset), found);
   }
   for (const std::string& name : file.groups(group)) {
     const std::string path = path_in(group, name);

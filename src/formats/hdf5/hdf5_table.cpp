@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -234,6 +235,19 @@ std::vector<std::string> units_of_columns(const Hdf5File& file, const std::strin
   return units;
 }
 
+// As netCDF keeps real numbers in few bits, and what stands for none.
+void unpack(const Hdf5File& file, Hdf5Column& column) {
+  for (Hdf5Column::Term& term : column.terms) {
+    const std::string& path = term.dataset.path;
+    for (const char* const name : {"_FillValue", "missing_value"}) {
+      if (const auto value = file.number(path, name)) term.missing.push_back(*value);
+    }
+    if (term.dataset.kind != Hdf5Dataset::Kind::integer) continue;
+    column.constant += term.factor * file.number(path, "add_offset").value_or(0);
+    term.factor *= file.number(path, "scale_factor").value_or(1);
+  }
+}
+
 // Some rows of the datasets that a column is made of.
 struct ColumnPiece {
   std::vector<std::vector<double>> terms;
@@ -247,11 +261,13 @@ struct ColumnPiece {
     }
   }
   double value(const Hdf5Column& column, std::uint64_t place) const {
-    if (column.is_as_stored()) return terms.front()[place];
     double value = column.constant;
-    for (std::size_t i = 0; i < terms.size(); ++i)
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      if (column.terms[i].is_missing(terms[i][place]))
+        return std::numeric_limits<double>::quiet_NaN();
       value += column.terms[i].factor * terms[i][place];
-    return value;
+    }
+    return column.is_as_stored() ? terms.front()[place] : value;
   }
 };
 
@@ -267,6 +283,13 @@ std::vector<TableColumn> with_units(const std::vector<Hdf5Column>& columns,
 
 }  // namespace
 
+bool Hdf5Column::Term::is_missing(double stored) const {
+  return std::any_of(missing.begin(), missing.end(), [&](double value) {
+    return stored == value || (dataset.is_single_precision() &&
+                               static_cast<float>(stored) == static_cast<float>(value));
+  });
+}
+
 Hdf5Table::Hdf5Table(const std::filesystem::path& path, const std::string& place,
                      std::vector<std::string>& notes)
     : path_(path) {
@@ -274,6 +297,8 @@ Hdf5Table::Hdf5Table(const std::filesystem::path& path, const std::string& place
   Hdf5Columns found = columns_in(file, place);
   columns_ = with_units(found.columns, units_of_columns(file, place, found.columns));
   sources_ = std::move(found.columns);
+  for (Hdf5Column& source : sources_)
+    unpack(file, source);
   if (const auto guessed = guess_positions(columns_)) {
     notes.push_back(fmt::format("dataset {} is taken for the positions", sources_[*guessed].owner));
     columns_[*guessed].name = "position";
@@ -289,8 +314,11 @@ Hdf5Table::Hdf5Table(const std::filesystem::path& path, const std::string& place
 
 Hdf5Table::Hdf5Table(const std::filesystem::path& path, std::vector<Hdf5Column> named)
     : path_(path), is_named_(true) {
-  columns_ = with_units(named, units_of_columns(Hdf5File(path), "", named));
+  const Hdf5File file(path);
+  columns_ = with_units(named, units_of_columns(file, "", named));
   sources_ = std::move(named);
+  for (Hdf5Column& source : sources_)
+    unpack(file, source);
   rows_ = sources_.front().rows.value_or(0);
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     if (sources_[i].rows == rows_) continue;

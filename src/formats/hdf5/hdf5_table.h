@@ -16,6 +16,9 @@ struct Hdf5Column {
   struct Term {
     Hdf5Dataset dataset;
     double factor = 1;
+    std::vector<double> missing = {};  // stored values that stand for none
+
+    bool is_missing(double stored) const;
   };
   std::string name;   // without its unit
   std::string owner;  // whose attributes tell the unit: a dataset, or a group instead of one

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "formats/hdf5/gadget_hdf5_header.h"
+#include "formats/table.h"
 #include "snapshot/field_names.h"
 
 namespace splotchcl {
@@ -204,7 +205,7 @@ UnitsOfFile read_units(const Hdf5File& file) {
 std::string read_unit_in_words(const Hdf5File& file, const std::string& object) {
   for (const char* attribute : {"units", "unit", "Units", "Unit"}) {
     const auto unit = file.text(object, attribute);
-    if (unit && !unit->empty() && *unit != "dimensionless") return *unit;
+    if (unit && !unit->empty() && *unit != "dimensionless") return in_our_units(*unit);
   }
   return {};
 }

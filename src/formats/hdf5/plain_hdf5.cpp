@@ -17,6 +17,7 @@
 #include "formats/hdf5/hdf5_table.h"
 #include "formats/table.h"
 #include "snapshot/field_names.h"
+#include "snapshot/stated_numbers.h"
 #include "snapshot/unit.h"
 #include "splotchcl/error.h"
 
@@ -231,6 +232,17 @@ void note_columns_elsewhere(const Hdf5File& file, const std::string& group, std:
   }
 }
 
+// Of a small dataset; empty where it is none of numbers, or longer.
+std::vector<double> few_numbers(const Hdf5File& file, const char* name) {
+  constexpr std::uint64_t most = 3;
+  if (!file.has(name)) return {};
+  const Hdf5Dataset dataset = file.dataset(name);
+  const std::uint64_t count = dataset.rows() * dataset.values_per_row();
+  std::vector<double> numbers(dataset.is_number() && count <= most ? count : 0);
+  if (!numbers.empty()) file.read_rows(dataset, 0, dataset.rows(), numbers.data());
+  return numbers;
+}
+
 // The first of these attributes that is a number, or a dataset of a single one.
 std::optional<double> find_number(const Hdf5File& file, const std::vector<const char*>& names,
                                   const std::string& group = "/") {
@@ -242,12 +254,8 @@ std::optional<double> find_number(const Hdf5File& file, const std::vector<const 
     }
   }
   for (const char* name : names) {
-    if (!file.has(name)) continue;
-    const Hdf5Dataset dataset = file.dataset(name);
-    const bool is_number = dataset.is_number() && dataset.rows() * dataset.values_per_row() == 1;
-    double value = 0;
-    if (is_number) file.read_rows(dataset, 0, 1, &value);
-    if (is_number) return value;
+    if (const std::vector<double> numbers = few_numbers(file, name); numbers.size() == 1)
+      return numbers.front();
   }
   return std::nullopt;
 }
@@ -293,20 +301,27 @@ void read_numbers(const Hdf5File& file, const std::string& group, SnapshotInfo& 
   const bool is_of_expansion = file.number("/", "cosmological_simulation").value_or(1) != 0;
   if (is_of_expansion) {
     info.redshift = find_number(file, {"redshift", "Redshift", "current_redshift"}, group);
+    const double scale_factor =
+        find_number(file, {"scale_factor", "expansion_factor"}, group).value_or(0);
+    if (!info.redshift && scale_factor > 0 && std::isfinite(scale_factor))
+      info.redshift = 1 / scale_factor - 1;
   }
-  info.hubble_parameter = find_number(file, {"HubbleParam", "hubble_constant"});
+  const double hubble_parameter = hubble_parameter_of(
+      find_number(file, {"HubbleParam", "hubble_constant"}).value_or(0), info.notes);
+  if (hubble_parameter > 0) info.hubble_parameter = hubble_parameter;
 }
 
 void read_box(const Hdf5File& file, SnapshotInfo& info) {
   constexpr std::array<const char*, 3> names = {"box_size", "BoxSize", "boxsize"};
   for (const char* const object : {"/", "Header"}) {
     for (const char* const name : names) {
-      if (const auto sides = file.numbers(object, name)) info.box_size = box_of(*sides);
+      if (const auto sides = file.numbers(object, name))
+        info.box_size = box_stated(*sides, info.notes);
       if (info.box_size) return;
     }
   }
-  if (const auto side = find_number(file, {names.begin(), names.end()})) {
-    info.box_size = box_of({*side});
+  for (const char* const name : names) {
+    if (!info.box_size) info.box_size = box_stated(few_numbers(file, name), info.notes);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "formats/table.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
+#include "snapshot/stated_numbers.h"
 #include "splotchcl/error.h"
 #include "splotchcl/snapshot_file.h"
 
@@ -89,6 +90,7 @@ class NumpyTable : public Table {
   void refuse_objects() const;
   void refuse_other_kinds() const;
   void refuse_image() const;
+  std::vector<double> few_numbers(std::size_t array) const;
   void read_numbers(SnapshotInfo& info);
   std::vector<TableColumn> arrays_as_columns() const;
   void name_positions(std::vector<std::string>& notes);
@@ -108,7 +110,8 @@ class NumpyTable : public Table {
   std::shared_ptr<const MappedFile> file_;  // of a single array
   bool numbers_columns_ = false;            // those of an array without names, from 1
   std::vector<NumpyArray> arrays_;
-  std::vector<std::size_t> entries_;  // of the archive, for each array
+  std::vector<std::size_t> of_the_whole_;  // those of time, redshift and box
+  std::vector<std::size_t> entries_;       // of the archive, for each array
   std::vector<TableColumn> columns_;
   std::vector<NumpyColumn> places_;
   std::vector<std::string> left_out_;
@@ -211,23 +214,38 @@ void NumpyTable::refuse_image() const {
       path_.string(), fmt::join(header.shape, " x "), most_nameless_columns - 3));
 }
 
-// Single numbers that say something about the whole.
+// Of an array of a single number, or of the sides of a box; empty for others.
+std::vector<double> NumpyTable::few_numbers(std::size_t array) const {
+  constexpr std::uint64_t most = 3;
+  const NumpyHeader& header = arrays_[array].header;
+  const bool are_numbers = !header.is_structured && header.members.front().is_usable;
+  const std::uint64_t count = header.shape.empty() ? 1 : header.rows();
+  if (!are_numbers || header.shape.size() > 1 || count > most) return {};
+  StoredValues stored = plain_column(array, header, 0, 1).values;
+  stored.file = content(array);
+  std::vector<double> numbers;
+  for (std::uint64_t i = 0; i < count; ++i)
+    numbers.push_back(value_at(stored, i, 0));
+  return numbers;
+}
+
+// Numbers that say something about the whole.
 void NumpyTable::read_numbers(SnapshotInfo& info) {
   for (std::size_t array = 0; array < arrays_.size(); ++array) {
-    const NumpyHeader& header = arrays_[array].header;
-    const bool is_number =
-        header.shape.empty() && !header.is_structured && header.members.front().is_usable;
-    if (!is_number) continue;
-    StoredValues stored = plain_column(array, header, 0, 1).values;
-    stored.file = content(array);
-    const double value = value_at(stored, 0, 0);
+    const std::vector<double> numbers = few_numbers(array);
+    if (numbers.empty()) continue;
     const std::string& name = arrays_[array].name;
-    if (equal_ignoring_case(name, "time")) info.time = value;
-    if (equal_ignoring_case(name, "redshift")) info.redshift = value;
-    const bool is_box =
-        equal_ignoring_case(name, "box_size") || equal_ignoring_case(name, "BoxSize");
-    if (is_box) info.box_size = box_of({value});
-    add_number_for_all(name, value);
+    const auto is_called = [&name](const char* wanted) {
+      return equal_ignoring_case(name, wanted);
+    };
+    const bool is_one = numbers.size() == 1;
+    const bool is_box = is_called("box_size") || is_called("BoxSize");
+    if (is_one && is_called("time")) info.time = numbers.front();
+    if (is_one && is_called("redshift")) info.redshift = numbers.front();
+    if (is_box) info.box_size = box_stated(numbers, info.notes);
+    if (is_box || (is_one && (is_called("time") || is_called("redshift"))))
+      of_the_whole_.push_back(array);
+    if (arrays_[array].header.shape.empty()) add_number_for_all(name, numbers.front());
   }
 }
 
@@ -323,7 +341,9 @@ void NumpyTable::add_array(std::size_t array, const std::vector<std::string>& na
   if (header.shape.empty()) return;  // a single number
   const bool fits = header.rows() == rows_ && header.shape.size() <= (header.is_structured ? 1 : 2);
   if (!fits) {
-    left_out_.push_back(arrays_[array].name);
+    const bool is_read =
+        std::find(of_the_whole_.begin(), of_the_whole_.end(), array) != of_the_whole_.end();
+    if (!is_read) left_out_.push_back(arrays_[array].name);
   } else if (header.is_structured) {
     if (!names.empty()) {
       throw UsageError(path_.string() + ": its columns have names; leave read.columns out");

@@ -207,24 +207,41 @@ std::vector<std::uint64_t> parse_shape(const PythonLiteral& literal, const std::
   return shape;
 }
 
-// ("name", "<f4") or ("name", "<f4", (3,)). The name may be ("title", "name").
-NumpyMember parse_member(const PythonLiteral& literal, const std::string& name) {
+[[noreturn]] void refuse_arrays_of_records(const std::string& name, const std::string& member) {
+  throw DataError(fmt::format(
+      "{}: the member {} of its records is an array of records, expected numbers; save its numbers "
+      "as arrays of their own",
+      name, member));
+}
+
+// ("name", "<f4") or ("name", "<f4", (3,)), or records in the record: ("name", [("x", "<f4")]),
+// whose members are name.x. The name may be ("title", "name").
+void add_members(const PythonLiteral& literal, const std::string& outer, const std::string& name,
+                 std::vector<NumpyMember>& members) {
   using Kind = PythonLiteral::Kind;
   const bool is_member =
       literal.kind == Kind::sequence && literal.items.size() >= 2 && literal.items.size() <= 3;
   if (!is_member) fail(name, "a member of its records has no name and type");
   const PythonLiteral* label = &literal.items[0];
   if (label->kind == Kind::sequence && label->items.size() == 2) label = &label->items[1];
-  if (label->kind != Kind::text || literal.items[1].kind != Kind::text) {
-    fail(name, "a member of its records is made of other records, or has no name; flatten it");
+  if (label->kind != Kind::text) fail(name, "a member of its records has no name");
+  const std::string path = label->text.empty() ? std::string() : outer + label->text;
+  const PythonLiteral& type = literal.items[1];
+  const bool has_shape = literal.items.size() > 2;
+  if (type.kind == Kind::sequence) {
+    if (has_shape) refuse_arrays_of_records(name, path);
+    for (const PythonLiteral& inner : type.items)
+      add_members(inner, path + ".", name, members);
+    return;
   }
-  NumpyMember member = parse_type(literal.items[1].text, name);
-  member.name = label->text;
-  if (literal.items.size() < 3) return member;
-  for (const std::uint64_t side : parse_shape(literal.items[2], name)) {
-    member.values = multiply(member.values, side, name);
+  if (type.kind != Kind::text) fail(name, "a member of its records has no type");
+  NumpyMember member = parse_type(type.text, name);
+  member.name = path;
+  if (has_shape) {
+    for (const std::uint64_t side : parse_shape(literal.items[2], name))
+      member.values = multiply(member.values, side, name);
   }
-  return member;
+  members.push_back(std::move(member));
 }
 
 void read_types(const PythonLiteral& literal, const std::string& name, NumpyHeader& header) {
@@ -233,7 +250,7 @@ void read_types(const PythonLiteral& literal, const std::string& name, NumpyHead
   } else if (literal.kind == PythonLiteral::Kind::sequence) {
     header.is_structured = true;
     for (const PythonLiteral& item : literal.items)
-      header.members.push_back(parse_member(item, name));
+      add_members(item, "", name, header.members);
   } else {
     fail(name, "its header has no type of values");
   }

@@ -201,15 +201,45 @@ std::vector<std::string> in_our_words(std::vector<std::string> names) {
   return names;
 }
 
-void add_ecsv_units(const std::vector<std::string_view>& comments,
-                    std::vector<std::string>& names) {
+namespace {
+
+struct DescribedName {
+  std::string name, unit;
+};
+
+// Of each column, as ECSV describes them: in braces, in which case the header need not be ECSV's,
+// or line by line, as the archive of Gaia has it: a dash, then name: x and unit: kpc.
+std::vector<DescribedName> described_names(const std::vector<std::string_view>& comments) {
+  std::vector<DescribedName> columns;
+  bool is_ecsv = false, is_open = false;
   for (const std::string_view comment : comments) {
     const std::string text = trimmed(std::string(comment));
-    if (text.compare(0, 9, "- {name: ") != 0) continue;
-    const std::string unit = value_of(text, "unit");
-    const auto named = std::find(names.begin(), names.end(), value_of(text, "name"));
-    if (unit.empty() || named == names.end() || !split_unit(*named).unit.empty()) continue;
-    *named += " [" + unit + "]";
+    is_ecsv = is_ecsv || text.rfind("%ECSV", 0) == 0;
+    const bool has_braces = text.rfind("- {", 0) == 0, has_dash = !text.empty() && text[0] == '-';
+    if (has_braces) columns.push_back({value_of(text, "name"), value_of(text, "unit")});
+    if (has_dash) is_open = is_ecsv && !has_braces && text.rfind("--", 0) != 0;
+    // Other lists follow.
+    if (text.rfind("meta:", 0) == 0 || text.rfind("schema:", 0) == 0) is_ecsv = is_open = false;
+    if (!is_open) continue;
+    if (has_dash) columns.emplace_back();
+    const std::string pair = trimmed(text.substr(has_dash ? 1 : 0));
+    for (const auto& [key, value] :
+         {std::pair("name", &DescribedName::name), std::pair("unit", &DescribedName::unit)}) {
+      if (pair.rfind(std::string(key) + ": ", 0) == 0)
+        columns.back().*value = value_of("{" + pair + "}", key);
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+void add_ecsv_units(const std::vector<std::string_view>& comments,
+                    std::vector<std::string>& names) {
+  for (const DescribedName& column : described_names(comments)) {
+    const auto named = std::find(names.begin(), names.end(), column.name);
+    if (column.unit.empty() || named == names.end() || !split_unit(*named).unit.empty()) continue;
+    *named += " [" + column.unit + "]";
   }
 }
 

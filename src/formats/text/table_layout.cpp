@@ -268,6 +268,20 @@ bool name_positions(const std::vector<std::string>& names) {
   return find_positions(columns).has_value();
 }
 
+std::optional<RowsInText> find_rows_in_text(const MappedFile& file) {
+  constexpr std::uint64_t farthest_row = 1U << 20;
+  RowsInText last;  // a row alone may be anything
+  TextLines lines(file);
+  while (lines.next() && lines.start() < farthest_row) {
+    TableLayout layout;
+    split_row(lines, HeaderLines(), layout);
+    const std::size_t columns = is_row(layout.cells) ? layout.cells.size() : 0;
+    if (columns > 0 && columns == last.columns) return last;
+    last = {lines.number(), columns};
+  }
+  return std::nullopt;
+}
+
 std::optional<TableLayout> find_layout(const MappedFile& file, const KnownOfTable& known) {
   if (known.skip_lines == 0) {
     if (auto layout = find_described_layout(file)) return layout;

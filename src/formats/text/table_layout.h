@@ -44,6 +44,14 @@ std::optional<TableLayout> find_xyz_layout(const MappedFile& file);
 // A table whose header describes it byte by byte, as catalogs and journals have them (CDS, MRT).
 std::optional<TableLayout> find_described_layout(const MappedFile& file);
 
+// Of a text that is no table as it stands: the line where rows of numbers begin that would be one
+// if their columns were named, and how many columns they have.
+struct RowsInText {
+  std::uint64_t line = 0;
+  std::size_t columns = 0;
+};
+std::optional<RowsInText> find_rows_in_text(const MappedFile& file);
+
 // Whether a line is no part of the rows.
 bool is_comment_line(std::string_view line);
 

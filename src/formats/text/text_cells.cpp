@@ -25,9 +25,7 @@ TextLines::TextLines(const MappedFile& file, std::uint64_t offset, std::uint64_t
       size_(file.size()),
       offset_(offset),
       number_(number) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";  // some spreadsheets begin with it
-  const std::string_view start(data_, std::min<std::uint64_t>(size_, byte_order_mark.size()));
-  if (offset_ == 0 && start == byte_order_mark) offset_ = byte_order_mark.size();
+  if (offset_ == 0) offset_ = size_ - text_of(file).size();
 }
 
 bool TextLines::next_of_all() {
@@ -162,12 +160,13 @@ bool is_missing(std::string_view cell) {
          });
 }
 
-std::optional<double> parse_cell(std::string_view cell) {
+std::optional<double> parse_cell(std::string_view cell, char decimal_mark) {
   if (is_missing(cell)) return std::numeric_limits<double>::quiet_NaN();
+  if (decimal_mark == ',' && cell.find('.') != std::string_view::npos) return std::nullopt;
   if (cell.front() == '+') cell.remove_prefix(1);
   if (const auto value = parse_plain(cell)) return value;
-  // Of countries with a decimal comma: no cell between commas has one.
-  const std::size_t comma = cell.find(',');
+  // Of countries with a decimal comma.
+  const std::size_t comma = decimal_mark == '.' ? std::string_view::npos : cell.find(',');
   if (comma != std::string_view::npos && cell.size() <= 64) {
     std::string with_point(cell);
     with_point[comma] = '.';
@@ -180,6 +179,16 @@ std::optional<double> parse_cell(std::string_view cell) {
   std::string with_e(cell);
   with_e[exponent] = 'e';
   return parse_plain(with_e);
+}
+
+char find_decimal_mark(const std::vector<std::string_view>& cells) {
+  char mark = 0;
+  for (const std::string_view cell : cells) {
+    const std::size_t place = cell.find_first_of(".,");
+    if (place == std::string_view::npos || !parse_cell(cell)) continue;
+    if (mark != '.') mark = cell[place];
+  }
+  return mark;
 }
 
 bool is_row(const std::vector<std::string_view>& cells) {

@@ -46,6 +46,8 @@ struct CellFormat {
   // A blank: any white space. A bar: those at both ends of the line count for nothing.
   char separator = ' ';
   std::vector<CellPlace> places;  // not empty: each has its place instead
+  // What stands before the digits behind the point; 0: no number has told, a point or a comma.
+  char decimal_mark = 0;
 
   const char* name() const;  // of what is between columns
 };
@@ -74,8 +76,12 @@ char find_separator(std::string_view line);
 
 // Whether a cell says that there is no number.
 bool is_missing(std::string_view cell);
-// A number; not-a-number where the cell says that there is none.
-std::optional<double> parse_cell(std::string_view cell);
+// A number; not-a-number where the cell says that there is none. Where the decimal mark is known,
+// the other one would be that of thousands: no number.
+std::optional<double> parse_cell(std::string_view cell, char decimal_mark = 0);
+
+// The mark of the numbers in a row, a point where they have both; 0 where none has one.
+char find_decimal_mark(const std::vector<std::string_view>& cells);
 
 // Whether there are as many numbers as a particle has at least.
 bool is_row(const std::vector<std::string_view>& cells);

@@ -36,6 +36,7 @@ class TextTable : public Table {
     std::size_t place;  // among the wanted values
   };
   void leave_out_line_of_counts(std::vector<std::string>& notes);
+  void find_decimal_mark();
   void find_columns(const std::vector<std::string>& names, std::vector<std::string>& notes);
   void refuse_lost_axis(const std::string& axis, const std::vector<std::string>& names) const;
   void count_rows();
@@ -44,6 +45,9 @@ class TextTable : public Table {
   }
   void read_row(const TextLines& line, const std::vector<WantedCell>& wanted, double* values) const;
   [[noreturn]] void fail(const TextLines& line, const std::string& what) const;
+  // What is said of a cell that is none.
+  std::string no_number(std::string_view cell) const;
+  [[noreturn]] void refuse_cell(const TextLines& line, std::string_view cell) const;
   [[noreturn]] void refuse_count(const TextLines& line, std::size_t cells) const;
 
   std::shared_ptr<const MappedFile> file_;
@@ -91,9 +95,21 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, TableLayout layout,
         "that are not needed), or leave out the lines before the table with read.skip_lines",
         path, layout_.lines_before + 1, width, wanted.size()));
   }
+  find_decimal_mark();
   find_columns(wanted, notes);
   count_rows();
   if (!names.empty()) leave_out_line_of_counts(notes);
+}
+
+// A table has one decimal mark: a comma beside points, or between commas, is that of thousands.
+void TextTable::find_decimal_mark() {
+  if (layout_.format.separator == ',') layout_.format.decimal_mark = '.';
+  TextLines lines = first_lines();
+  for (int looked_at = 0; looked_at < 1000 && layout_.format.decimal_mark == 0 && lines.next();
+       ++looked_at) {
+    if (is_comment_line(lines.line())) continue;
+    layout_.format.decimal_mark = splotchcl::find_decimal_mark(cells_of(lines, layout_.format));
+  }
 }
 
 void TextTable::find_columns(const std::vector<std::string>& names,
@@ -103,7 +119,7 @@ void TextTable::find_columns(const std::vector<std::string>& names,
     if (names[i] == "-") continue;
     if (names[i].empty()) {
       notes.push_back(fmt::format("column {} left out, as it has no name", i + 1));
-    } else if (parse_cell(layout_.cells[i])) {
+    } else if (parse_cell(layout_.cells[i], layout_.format.decimal_mark)) {
       columns_.push_back({names[i], 1});
       cells_.push_back(i);
     } else {
@@ -120,9 +136,9 @@ void TextTable::refuse_lost_axis(const std::string& axis,
                                  const std::vector<std::string>& names) const {
   if (axis.empty()) return;
   const auto column = std::find(names.begin(), names.end(), axis) - names.begin();
-  throw DataError(fmt::format("{}: line {}: column {}: found '{}', expected a number",
-                              file_->path().string(), layout_.lines_before + 1, axis,
-                              layout_.cells[static_cast<std::size_t>(column)].substr(0, 40)));
+  throw DataError(fmt::format("{}: line {}: column {}: {}", file_->path().string(),
+                              layout_.lines_before + 1, axis,
+                              no_number(layout_.cells[static_cast<std::size_t>(column)])));
 }
 
 void TextTable::count_rows() {
@@ -168,6 +184,20 @@ void TextTable::fail(const TextLines& line, const std::string& what) const {
                               file_->path().string(), line.number(), what));
 }
 
+std::string TextTable::no_number(std::string_view cell) const {
+  const std::string found = fmt::format("found '{}', expected a number", cell.substr(0, 40));
+  if (!parse_cell(cell)) return found;
+  return fmt::format(
+      "{} with a decimal {}, as others in the table have; take out what stands between thousands",
+      found, layout_.format.decimal_mark == ',' ? "comma" : "point");
+}
+
+void TextTable::refuse_cell(const TextLines& line, std::string_view cell) const {
+  if (!parse_cell(cell)) fail(line, no_number(cell));
+  throw DataError(
+      fmt::format("{}: line {}: {}", file_->path().string(), line.number(), no_number(cell)));
+}
+
 // Without names, lines before the table may look like its first row.
 void TextTable::refuse_count(const TextLines& line, std::size_t cells) const {
   const std::string what =
@@ -188,8 +218,8 @@ void TextTable::read_row(const TextLines& line, const std::vector<WantedCell>& w
   for (; reader.next(); ++cells) {
     const std::string_view cell = reader.cell();
     for (; next != wanted.end() && next->cell == cells; ++next) {
-      const std::optional<double> value = parse_cell(cell);
-      if (!value) fail(line, fmt::format("found '{}', expected a number", cell.substr(0, 40)));
+      const std::optional<double> value = parse_cell(cell, layout_.format.decimal_mark);
+      if (!value) refuse_cell(line, cell);
       values[next->place] = *value;
     }
   }

@@ -274,7 +274,7 @@ def column(
     lists = {"map.shell": shell, "map.voxels": voxels, "map.histogram": histogram, "map.bins": bins}
     for key, value in lists.items():
         if value is not None:
-            keys[key] = value if isinstance(value, int | str) else list(value)
+            keys[key] = value if np.ndim(value) == 0 else list(value)
     if tile:
         keys["map.tile"] = True
     if slice:

@@ -75,9 +75,12 @@ def keys_of(
 
 def _sides(size: Any) -> list[int]:
     try:
-        width, height = size.split("x") if isinstance(size, str) else size
-        return [int(width), int(height)]
-    except (TypeError, ValueError):
+        sides = size.split("x") if isinstance(size, str) else list(size)
+        width, height = (int(side) for side in sides)
+        if [width, height] != [float(side) for side in sides]:
+            raise ValueError
+        return [width, height]
+    except (TypeError, ValueError, OverflowError):
         raise UsageError(
             f"size: found {size!r}, expected width and height in pixels, such as (640, 480) or "
             "'640x480'"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -118,7 +119,7 @@ def profile(
     if box is not None:
         offset -= box * np.round(offset / box)
     distance = np.sqrt((offset**2).sum(axis=1))
-    limits = _edges_of(edges, bins, inner, outer, distance, box)
+    limits = _edges_of(edges, *_counts_of(bins, 1), inner, outer, distance, box)
     weights, values = weights[good], values[good]
     total, _ = np.histogram(distance, limits, weights=weights)
     counts, _ = np.histogram(distance, limits)
@@ -185,7 +186,7 @@ def histogram(
             raise UsageError(f"field {name!r}: found values of 0 and below, expected others for a logarithm")
     if not good.any():
         raise UsageError("found no particle with finite fields and weight, expected some")
-    numbers = (bins, bins) if isinstance(bins, int) else bins
+    numbers = _counts_of(bins, 2)
     limits = [
         _bins_of(name, of_field[good], count, span, is_log)
         for name, of_field, count, span, is_log in zip(
@@ -263,6 +264,17 @@ def _center_of(
         offset -= box * np.round(offset / box)
     middle = first + (mass[:, None] * offset).sum(axis=0) / mass.sum()
     return np.asarray(middle if box is None else middle % box)
+
+
+def _counts_of(bins: int | Sequence[int], axes: int) -> list[int]:
+    """One whole number for all axes, or one for each, of numpy's too."""
+    try:
+        counts = [index(number) for number in ([bins] * axes if np.ndim(bins) == 0 else bins)]
+    except TypeError:
+        counts = []
+    if len(counts) != axes:
+        raise UsageError(f"bins: found {bins!r}, expected a whole number" + " or two" * (axes == 2))
+    return counts
 
 
 def _edges_of(

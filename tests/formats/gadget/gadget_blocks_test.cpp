@@ -95,6 +95,11 @@ INSTANTIATE_TEST_SUITE_P(
     Header, GadgetBlocks,
     ::testing::ValuesIn(std::vector<BlocksRow>{
         {"ABoxSizeOfZeroIsNone", 2, small([](auto& written) { written.box_size = 0; }), "no box"},
+        {"ABoxSizeBelowZeroIsNoneWithANote", 2, small([](auto& written) { written.box_size = -5; }),
+         "no box | note the box in the file, -5, is not"},
+        {"HubbleParametersBeyondAnyHAreTakenForH0", 2,
+         small([](auto& written) { written.hubble_parameter = 70; }),
+         "hubble 0.7 | note 70, is taken for H0"},
         {"ARedshiftOfZeroWithoutCosmologyIsNone", 2,
          small([](auto& written) { written.redshift = written.omega_matter = 0; }), "no redshift"},
         {"NegativeMassesAreRefused", 2, small([](auto& written) { written.table_masses[1] = -24; }),

@@ -93,6 +93,12 @@ TEST_F(HaloCatalog, OffsetsInTheFileAreUsed) {
   EXPECT_THAT(places("tab.hdf5", 1, 0), ElementsAre(10, 11));
 }
 
+TEST_F(HaloCatalog, LengthsBelowZeroAreRefusedWhicheverHaloIsWanted) {
+  write_groups("tab.hdf5", {3, 0, 0, -2, 0, 0, 4, 0, 0});
+  for (const std::uint64_t halo : {1U, 2U})
+    EXPECT_THAT(refusal_of("tab.hdf5", halo), HasSubstr("GroupLenType holds -2 for halo 1"));
+}
+
 TEST_F(HaloCatalog, InSeveralFilesIsReadFromAnyOfThem) {
   write_groups("tab.0.hdf5", {3, 0, 1, 2, 5, 0}, 3);
   write_groups("tab.1.hdf5", {}, 3);

@@ -43,6 +43,14 @@ std::string records() {
   return numpy_bytes(header, data, 2);
 }
 
+// Two particles: p of x, y, z, then mass.
+std::string records_in_records(const char* shape_of_p) {
+  const std::string header =
+      std::string("{'descr': [('p', [('x', '<f4'), ('y', '<f4'), ('z', '<f4')]") + shape_of_p +
+      "), ('mass', '<f4')], 'fortran_order': False, 'shape': (2,)}";
+  return numpy_bytes(header, bytes_of<float>({1, 2, 3, 7, 4, 5, 6, 8}));
+}
+
 std::vector<std::string> no_python() {
   std::vector<std::string> files;
   for (const char* const header :
@@ -91,6 +99,13 @@ INSTANTIATE_TEST_SUITE_P(
          {records()},
          "position 0 1 2 10 11 12 | smoothing_length 0.5 10.5 | flag 0 1 | "
          "ids 9223372036854775808 9223372036854775809 | note name"},
+        {"RecordsInRecordsHaveTheNamesOfBoth",
+         {records_in_records("")},
+         "position 1 2 3 4 5 6 | mass 7 8",
+         {{"x=p.x", "y=p.y", "z=p.z"}}},
+        {"ArraysOfRecordsInRecordsAreRefused",
+         {records_in_records(", (1,)")},
+         "refused member p of its records is an array of records"},
         {"ShapesThatOverflowAreRefused",
          {numpy_bytes(numpy_header("<f4", "(4611686018427387904, 3)"), std::string(24, 'x'))},
          "refused overflows"},
@@ -156,6 +171,12 @@ INSTANTIATE_TEST_SUITE_P(
                    {"BoxSize", array<double>("<f8", "()", {64})}}),
          "format NumPy archive | time 0.25 | box 64 | position 1 2 3 4 5 6 | mass 7 8 | ids 5 6 | "
          "note halo_mass"},
+        {"NumbersOfTheWholeMayBeArraysOfOneAndSidesOfABox",
+         archives({{"pos", threes},
+                   {"time", array<double>("<f8", "(1,)", {0.25})},
+                   {"redshift", array<double>("<f8", "(1,)", {3})},
+                   {"box_size", array<double>("<f8", "(3,)", {8, 16, 32})}}),
+         "time 0.25 | redshift 3 | box 8 16 32 | no notes"},
         {"AxesInArraysOfTheirOwnAreJoined",
          archives({{"z", floats("(2,)", {3, 6})},
                    {"y", floats("(2,)", {2, 5})},
