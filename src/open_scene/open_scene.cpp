@@ -45,6 +45,26 @@ Look look_in(const std::vector<std::string>& settings, Look otherwise) {
   return apply_settings(Scene(), own).look.value_or(otherwise);
 }
 
+// The picture for which a scene's camera is chosen. One that looks in all directions frames
+// nothing.
+ImageSettings framed_picture(const Scene& scene) {
+  return is_wide_angle(scene.camera->projection) ? ImageSettings() : scene.image;
+}
+
+// That of a scene to which these settings will be applied.
+ImageSettings framed_picture(const std::vector<std::string>& settings) {
+  constexpr std::array<const char*, 6> keys = {"image.size",           "image.width",
+                                               "image.height",         "camera.projection",
+                                               "camera.field_of_view", "camera.width"};
+  std::vector<std::string> own;
+  for (const std::string& setting : settings) {
+    if (std::count(keys.begin(), keys.end(), key_of(setting)) > 0) own.push_back(setting);
+  }
+  Scene begun;
+  begun.camera.emplace();
+  return framed_picture(scene_file::apply_settings_to_suggested(begun, &begun, own));
+}
+
 // component.NAME.types=...
 bool sets_types(const std::string& setting) {
   const std::string key = key_of(setting);
@@ -88,7 +108,7 @@ std::string key_of_types(std::size_t component, const std::string& name,
 // What was suggested for other types than a setting wants does not fit them: it is suggested anew,
 // and so is the camera.
 Scene with_wanted_types(Scene suggested, const std::vector<std::string>& settings,
-                        const Snapshot& snapshot, Look look) {
+                        const Snapshot& snapshot, Look look, const ImageSettings& image) {
   std::vector<std::string> own;
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(own), sets_types);
   if (own.empty()) return suggested;
@@ -106,8 +126,7 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
     suggested.components[i] = suggest_component(snapshot, types, look);
     suggested.components[i].name = name;
   }
-  suggested.camera.reset();
-  suggested.camera = decide_camera(suggested, snapshot);
+  suggested.camera = camera_for(image, suggested, snapshot);
   return suggested;
 }
 
@@ -190,6 +209,15 @@ void refuse_look(const Scene& scene, const std::filesystem::path& path) {
       "components; delete the key, or every [[component]]");
 }
 
+// A scene file before its look has chosen anything: what it says of the camera comes on top of the
+// one that is chosen, and need not say where it stands.
+Scene read_before_its_look(const std::filesystem::path& path,
+                           const std::vector<std::string>& settings) {
+  Scene open;
+  open.camera.emplace();
+  return scene_file::read_scene_file_on(open, path, settings);
+}
+
 // A scene file without components leaves them to its look.
 SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
                                   const std::vector<std::string>& settings, const ShortKeys& keys,
@@ -198,7 +226,7 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(early),
                [](const std::string& setting) { return setting.rfind("component.", 0) != 0; });
   SceneWithSnapshot result;
-  const Scene own = read_scene_file(path);
+  const Scene own = read_before_its_look(path, {});
   if (!own.components.empty() || !own.look) {
     result.scene = read_scene_file(path, settings);
     check_components(result.scene, path);
@@ -208,12 +236,13 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
     keep_types(keys, result.scene);
     return result;
   }
-  const Scene begun = read_scene_file(path, early);
+  const Scene begun = read_before_its_look(path, early);
   result.snapshot = SnapshotSource().at(begun);
   share_passes(*result.snapshot, ranks);
-  Scene suggested = suggest_scene(*result.snapshot, *begun.look);
-  choose_types(keys, *result.snapshot, *begun.look, suggested);
-  suggested = with_wanted_types(suggested, settings, *result.snapshot, *begun.look);
+  const ImageSettings image = framed_picture(begun);
+  Scene suggested = suggest_scene(*result.snapshot, *begun.look, image);
+  choose_types(keys, *result.snapshot, *begun.look, image, suggested);
+  suggested = with_wanted_types(suggested, settings, *result.snapshot, *begun.look, image);
   result.scene = scene_file::read_scene_file_on(suggested, path, settings);
   result.scene.look.reset();
   apply_colors(keys, settings, result);
@@ -232,8 +261,9 @@ SceneWithSnapshot open_sequence(const std::string& pattern,
   result.snapshot = SnapshotSource().at(begun);
   share_passes(*result.snapshot, ranks);
   const Look look = look_in(settings, otherwise);
-  Scene suggested =
-      with_wanted_types(suggest_scene(*result.snapshot, look), settings, *result.snapshot, look);
+  const ImageSettings image = framed_picture(settings);
+  Scene suggested = with_wanted_types(suggest_scene(*result.snapshot, look, image), settings,
+                                      *result.snapshot, look, image);
   suggested.snapshot.clear();
   suggested.time = begun.time;
   result.suggested = suggested;
@@ -256,9 +286,10 @@ SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
   SceneWithSnapshot result;
   result.snapshot = snapshot;
   const Look look = look_in(settings, otherwise);
-  Scene suggested = suggest_scene(*snapshot, look);
-  choose_types(keys, *snapshot, look, suggested);
-  result.suggested = with_wanted_types(suggested, settings, *snapshot, look);
+  const ImageSettings image = framed_picture(settings);
+  Scene suggested = suggest_scene(*snapshot, look, image);
+  choose_types(keys, *snapshot, look, image, suggested);
+  result.suggested = with_wanted_types(suggested, settings, *snapshot, look, image);
   result.scene =
       scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
   result.scene.look.reset();

@@ -111,8 +111,7 @@ std::vector<Target> targets_of_course(const Scene& scene) {
   for (std::size_t k = 0; k < count; ++k) {
     Scene at = scene;
     at.time.index = list[count == 1 ? 0 : k * (list.size() - 1) / (count - 1)].index;
-    targets.push_back(suggest_target(*snapshots.at(at), types_of(at.components), at.image.width,
-                                     at.image.height));
+    targets.push_back(suggest_target(*snapshots.at(at), types_of(at.components), at.image));
     if (targets.back().shape == Target::Shape::box) return {};
   }
   return targets;
@@ -157,7 +156,7 @@ void let_matter_fade_before_target(double part_of_view, Scene& scene) {
 // time, from wherever an orbit leads it. Periodic boxes stay as they are. Throws as readers do.
 void show_whole_course(Scene& scene) {
   const std::vector<Target> targets = targets_of_course(scene);
-  if (!targets.empty()) scene.camera = suggest_camera(target_around(targets));
+  if (!targets.empty()) scene.camera = suggest_camera(target_around(targets), scene.image);
 }
 
 // Brings a camera that looks in all directions, and was chosen from the data as if it looked in
