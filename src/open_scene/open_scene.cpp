@@ -38,6 +38,16 @@ std::string key_of(const std::string& setting) {
   return trimmed(setting.substr(0, setting.find('=')));
 }
 
+// Which numbers a pattern's snapshots may have: of these one is looked at.
+std::vector<std::string> range_settings_in(const std::vector<std::string>& settings) {
+  std::vector<std::string> own;
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
+               [](const std::string& setting) {
+                 return key_of(setting) == "time.first" || key_of(setting) == "time.last";
+               });
+  return own;
+}
+
 Look look_in(const std::vector<std::string>& settings, Look otherwise) {
   std::vector<std::string> own;
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
@@ -256,6 +266,7 @@ SceneWithSnapshot open_sequence(const std::string& pattern,
   SceneWithSnapshot result;
   Scene begun;
   begun.time.pattern = pattern;
+  begun = apply_settings(begun, range_settings_in(settings));
   const std::vector<ListedSnapshot> list = list_sequence(begun.time);
   begun.time.index = list.back().index;
   result.snapshot = SnapshotSource().at(begun);
@@ -300,6 +311,11 @@ SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
   return result;
 }
 
+// Which one is drawn, so that all that asks the scene knows it.
+void name_moment(SequenceSettings& time) {
+  if (time.is_set() && !time.index) time.index = list_sequence(time).front().index;
+}
+
 SceneWithSnapshot open_together(const std::filesystem::path& path,
                                 const std::vector<std::string>& settings, const ShortKeys& keys,
                                 const std::shared_ptr<Communicator>& ranks, Look otherwise) {
@@ -320,6 +336,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
     result = suggest_for(result.snapshot, settings, keys, otherwise);
   }
   share_passes(*result.snapshot, ranks);
+  name_moment(result.scene.time);
   apply(keys, result);
   return result;
 }

@@ -86,13 +86,18 @@ std::string note_of(const Scene& scene, std::size_t snapshots) {
                      scene.path.orbit->degrees, *scene.movie.frames);
 }
 
+// Scenes that were opened have one, where they have a sequence.
+double index_in(const Scene& scene) {
+  return scene.time.index.value_or(0);
+}
+
 // In a periodic box the box is shown around the target from the start: nothing comes in at its
 // faces while the camera goes there.
 void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
   using namespace boost::qvm;
   if (!filled_box(scene, snapshot)) return;
   scene.periodic.wrap = true;
-  std::vector<double> indices = {scene.time.index};
+  std::vector<double> indices = {index_in(scene)};
   if (!scene.path.keyframes.empty()) indices.push_back(list_sequence(scene.time).front().index);
   const Vec3 shift = find_followed(scene, indices).center(indices.back()) - scene.camera->look_at;
   scene.camera->look_at += shift;
@@ -139,7 +144,7 @@ Target target_around(const std::vector<Target>& targets) {
 double part_of_view(const Scene& scene) {
   const CameraFrame shown = make_camera_frame(*scene.camera, scene.image.width, scene.image.height);
   const double side = std::min(scene.image.width, scene.image.height) / shown.pixels_per_length;
-  return scene.path.follow->size * find_followed(scene, {scene.time.index}).radius() / side;
+  return scene.path.follow->size * find_followed(scene, {index_in(scene)}).radius() / side;
 }
 
 // Matter that the camera meets on its way around the target would lie over it as a veil.
@@ -358,7 +363,7 @@ void FilmScene::check_moments() const {
   const std::vector<ListedSnapshot> list = list_sequence(scene_.time);
   for (int frame = 0; frame < path_->frame_count(); ++frame) {
     try {
-      find_place(list, scene_at(frame).time.index);
+      find_place(list, index_in(scene_at(frame)));
     } catch (const UsageError& error) {
       throw UsageError(fmt::format("frame {} of the path: {}", frame, error.what()));
     }
