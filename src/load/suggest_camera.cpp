@@ -346,4 +346,16 @@ Camera suggest_camera(const Target& target, const ImageSettings& image) {
   return camera;
 }
 
+void stand_amid_matter(Camera& camera) {
+  // What a picture of 45 degrees shows from afar is half as wide as the way to it, or wider.
+  constexpr double part_of_way = 0.2;
+  const Vec3 way = part_of_way * (camera.position - camera.look_at);
+  const double distance = boost::qvm::mag(way);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    camera.position.a[axis] = rounded(camera.look_at.a[axis] + way.a[axis], distance);
+  if (camera.near_limit || camera.fade.near_length > 0) return;
+  camera.fade.near_length = rounded(distance, distance);
+  camera.through_clouds = false;
+}
+
 }  // namespace splotchcl

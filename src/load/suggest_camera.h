@@ -53,4 +53,9 @@ Target suggest_target(const Snapshot& snapshot, const std::vector<int>& types,
 // that it fills the picture, whatever its shape, anything else whole but for its outliers.
 Camera suggest_camera(const Target& target, const ImageSettings& image);
 
+// Brings such a camera that looks in all directions so near that matter is around it. What comes
+// close fades, so that clouds around the camera, of which there are thousands there, need not be
+// looked through; not where a near limit or a fade is given.
+void stand_amid_matter(Camera& camera);
+
 }  // namespace splotchcl

@@ -8,6 +8,7 @@
 #include "common/words.h"
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
+#include "load/suggest_camera.h"
 #include "open_scene/short_keys.h"
 #include "open_scene/shown_snapshot.h"
 #include "ranks/exchange.h"
@@ -73,6 +74,20 @@ ImageSettings framed_picture(const std::vector<std::string>& settings) {
   Scene begun;
   begun.camera.emplace();
   return framed_picture(scene_file::apply_settings_to_suggested(begun, &begun, own));
+}
+
+// A camera that settings left where it was chosen stands amid the matter where they make it look in
+// all directions: as suggested, from then on.
+void look_all_around(Scene& suggested, Scene& scene) {
+  Camera &chosen = *suggested.camera, &camera = *scene.camera;
+  const bool is_moved = camera.position != chosen.position || camera.look_at != chosen.look_at ||
+                        camera.through_clouds != chosen.through_clouds;
+  if (is_moved || !is_wide_angle(camera.projection)) return;
+  stand_amid_matter(camera);
+  chosen.position = camera.position;
+  if (camera.through_clouds) return;
+  chosen.fade.near_length = camera.fade.near_length;
+  chosen.through_clouds = false;
 }
 
 // component.NAME.types=...
@@ -254,6 +269,7 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
   choose_types(keys, *result.snapshot, *begun.look, image, suggested);
   suggested = with_wanted_types(suggested, settings, *result.snapshot, *begun.look, image);
   result.scene = scene_file::read_scene_file_on(suggested, path, settings);
+  look_all_around(suggested, result.scene);
   result.scene.look.reset();
   apply_colors(keys, settings, result);
   return result;
@@ -279,6 +295,7 @@ SceneWithSnapshot open_sequence(const std::string& pattern,
   suggested.time = begun.time;
   result.suggested = suggested;
   result.scene = scene_file::apply_settings_to_suggested(suggested, &suggested, settings);
+  look_all_around(*result.suggested, result.scene);
   result.scene.look.reset();
   if (result.scene.time.index != begun.time.index)
     result.snapshot = SnapshotSource().at(result.scene);
@@ -303,6 +320,7 @@ SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
   result.suggested = with_wanted_types(suggested, settings, *snapshot, look, image);
   result.scene =
       scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
+  look_all_around(*result.suggested, result.scene);
   result.scene.look.reset();
   apply_colors(keys, settings, result);
   name_by_types(*result.suggested, result.scene);

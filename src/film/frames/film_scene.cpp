@@ -164,19 +164,12 @@ void show_whole_course(Scene& scene) {
   if (!targets.empty()) scene.camera = suggest_camera(target_around(targets), scene.image);
 }
 
-// Brings a camera that looks in all directions, and was chosen from the data as if it looked in
-// one, so near that matter is around it. Where it has no target to come close to, what does fades,
-// so that clouds around the camera, of which there are thousands there, need not be looked through.
-// Other cameras stay.
-void stand_amid_matter(Camera& camera, bool has_target) {
-  // What a picture of 45 degrees shows from afar is half as wide as the way to it, or wider.
-  constexpr double part_of_way = 0.2;
-  if (!is_wide_angle(camera.projection)) return;
-  const Vec3 way = camera.position - camera.look_at;
-  camera.position = Vec3(camera.look_at + part_of_way * way);
-  if (has_target || camera.near_limit || camera.fade.near_length > 0) return;
-  camera.fade.near_length = part_of_way * boost::qvm::mag(way);
-  camera.through_clouds = false;
+// Matter around a camera that was chosen to stand amid it fades. Not where the camera goes: what it
+// goes to would fade as well.
+void let_no_matter_fade(const Camera& suggested, Camera& camera) {
+  if (camera.fade.near_length != suggested.fade.near_length || suggested.through_clouds) return;
+  camera.fade.near_length = 0;
+  camera.through_clouds = true;
 }
 
 // Gives a scene that says nothing of a film one that suits its data: an orbit around what a
@@ -325,7 +318,8 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   }
   if (view.place && view.zoom && scene_.time.is_set() && !target.is_approached)
     show_whole_course(scene_);
-  if (view.place) stand_amid_matter(*scene_.camera, !target.name.empty());
+  if (view.place && !target.name.empty())
+    let_no_matter_fade(*opened.suggested->camera, *scene_.camera);
   // A scene file that says how long its film is says what it is, too.
   if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {
     const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);
