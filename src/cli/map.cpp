@@ -39,10 +39,9 @@ void add_map(CLI::App& app, Run& run, Console& console) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_map_options(*sub, *options);
-  sub->add_option("--tolerance", options->tolerance,
-                  wrapped("Largest error of each sum, relative to it, or to map.floor if it is "
-                          "below that; 0: 1e-6. Default: the scene's, or 0.001"))
-      ->type_name("X");
+  add_number(*sub, "--tolerance", options->tolerance, "X",
+             "Largest error of each sum, relative to it, or to map.floor if it is below that; 0: "
+             "1e-6. Default: the scene's, or 0.001");
   add_scene_options(*sub, *options);
   sub->footer(
       "Examples:\n"

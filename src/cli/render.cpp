@@ -35,8 +35,8 @@ Rectangle parse_crop(const std::string& text) {
     next = after;
   }
   if (!good || next != end) {
-    throw UsageError("--crop: '" + text +
-                     "' is not X,Y,W,H, four whole numbers of pixels such as 0,0,256,256");
+    throw UsageError("--crop: found '" + text +
+                     "', expected X,Y,W,H, four whole numbers of pixels such as 0,0,256,256");
   }
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
