@@ -7,6 +7,7 @@
 
 #include "cli/command_builder.h"
 #include "cli/commands.h"
+#include "cli/draw_options.h"
 #include "cli/scene_options.h"
 #include "common/guards.h"
 #include "common/output_files.h"
@@ -195,6 +196,7 @@ std::string size_of(const Map& map) {
 }  // namespace
 
 int run_map(const MapOptions& options, Console& console) {
+  refuse_beside_reference(options, {});
   if (!options.text_of("quantity").empty() && !options.field.empty()) {
     throw UsageError("map: found --quantity and --field, expected one of them: they say the same");
   }
