@@ -77,17 +77,17 @@ ImageSettings framed_picture(const std::vector<std::string>& settings) {
 }
 
 // A camera that settings left where it was chosen stands amid the matter where they make it look in
-// all directions: as suggested, from then on.
-void look_all_around(Scene& suggested, Scene& scene) {
-  Camera &chosen = *suggested.camera, &camera = *scene.camera;
+// all directions. Returns what counts as chosen from then on.
+Camera look_all_around(Camera chosen, Camera& camera) {
   const bool is_moved = camera.position != chosen.position || camera.look_at != chosen.look_at ||
                         camera.through_clouds != chosen.through_clouds;
-  if (is_moved || !is_wide_angle(camera.projection)) return;
+  if (is_moved || !is_wide_angle(camera.projection)) return chosen;
   stand_amid_matter(camera);
   chosen.position = camera.position;
-  if (camera.through_clouds) return;
+  if (camera.through_clouds) return chosen;
   chosen.fade.near_length = camera.fade.near_length;
   chosen.through_clouds = false;
+  return chosen;
 }
 
 // component.NAME.types=...
@@ -269,7 +269,7 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
   choose_types(keys, *result.snapshot, *begun.look, image, suggested);
   suggested = with_wanted_types(suggested, settings, *result.snapshot, *begun.look, image);
   result.scene = scene_file::read_scene_file_on(suggested, path, settings);
-  look_all_around(suggested, result.scene);
+  result.suggested_camera = look_all_around(*suggested.camera, *result.scene.camera);
   result.scene.look.reset();
   apply_colors(keys, settings, result);
   return result;
@@ -295,7 +295,8 @@ SceneWithSnapshot open_sequence(const std::string& pattern,
   suggested.time = begun.time;
   result.suggested = suggested;
   result.scene = scene_file::apply_settings_to_suggested(suggested, &suggested, settings);
-  look_all_around(*result.suggested, result.scene);
+  result.suggested->camera = look_all_around(*result.suggested->camera, *result.scene.camera);
+  result.suggested_camera = result.suggested->camera;
   result.scene.look.reset();
   if (result.scene.time.index != begun.time.index)
     result.snapshot = SnapshotSource().at(result.scene);
@@ -320,7 +321,8 @@ SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
   result.suggested = with_wanted_types(suggested, settings, *snapshot, look, image);
   result.scene =
       scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
-  look_all_around(*result.suggested, result.scene);
+  result.suggested->camera = look_all_around(*result.suggested->camera, *result.scene.camera);
+  result.suggested_camera = result.suggested->camera;
   result.scene.look.reset();
   apply_colors(keys, settings, result);
   name_by_types(*result.suggested, result.scene);

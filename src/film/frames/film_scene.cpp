@@ -290,8 +290,8 @@ struct SuggestedView {
 };
 
 SuggestedView suggested_view(const SceneWithSnapshot& opened) {
-  if (!opened.suggested || !opened.suggested->camera || !opened.scene.camera) return {};
-  const Camera &now = *opened.scene.camera, &suggested = *opened.suggested->camera;
+  if (!opened.suggested_camera || !opened.scene.camera) return {};
+  const Camera &now = *opened.scene.camera, &suggested = *opened.suggested_camera;
   SuggestedView left;
   left.place = now.position == suggested.position && now.look_at == suggested.look_at &&
                now.through_clouds == suggested.through_clouds;
@@ -319,7 +319,7 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (view.place && view.zoom && scene_.time.is_set() && !target.is_approached)
     show_whole_course(scene_);
   if (view.place && !target.name.empty())
-    let_no_matter_fade(*opened.suggested->camera, *scene_.camera);
+    let_no_matter_fade(*opened.suggested_camera, *scene_.camera);
   // A scene file that says how long its film is says what it is, too.
   if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {
     const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);
