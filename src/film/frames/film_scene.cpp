@@ -325,6 +325,12 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
     const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);
     if (!note.empty()) notes_.push_back(note);
   }
+  if (!scene_.path.is_set() && scene_.movie.frames > 1) {
+    notes_.push_back(fmt::format(
+        "no path: all {} frames are alike; path.orbit.degrees=360 turns the camera, and "
+        "without movie.frames a path is chosen",
+        *scene_.movie.frames));
+  }
   scene_ = with_simple_path(std::move(scene_), notes_);
   path_.emplace(scene_, notes_, find_followed);
   path_->check(scene_);
