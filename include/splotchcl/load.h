@@ -16,8 +16,10 @@
 namespace splotchcl {
 
 // A camera, components, fields and palettes that suit the data, every value spelled
-// out so that it can be saved as a scene file.
-Scene suggest_scene(const Snapshot& snapshot, Look look = Look::press);
+// out so that it can be saved as a scene file. The camera frames them in a picture of the shape of
+// `image`; the scene keeps its own size.
+Scene suggest_scene(const Snapshot& snapshot, Look look = Look::press,
+                    const ImageSettings& image = {});
 // A component that suits these types alone, where a user wants others than those suggested.
 Component suggest_component(const Snapshot& snapshot, const std::vector<int>& types,
                             Look look = Look::press);

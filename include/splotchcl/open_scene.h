@@ -19,6 +19,7 @@ struct SceneWithSnapshot {
   std::shared_ptr<const Snapshot> snapshot;  // opened; no particle has been read
   std::vector<std::string> notes;            // on the scene, a line each
   std::optional<Scene> suggested;            // of a snapshot: the scene before the settings
+  std::optional<Camera> suggested_camera;    // the same of a scene that leaves it to its look
 };
 
 // Whether `path` is a parameter file of the original program, by its ending.

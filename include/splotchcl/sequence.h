@@ -18,7 +18,8 @@ struct SequenceSettings {
   std::vector<std::string> snapshots;  // index 0, 1, 2, ...
   std::string pattern;                 // "snapshot_%03d": the index is the number in the name
   std::optional<int> first, last;      // of a pattern's numbers; unset: all that exist
-  double index = 0;                    // which is drawn; with a fraction: between two
+  // Which is drawn; with a fraction: between two. Unset: the first.
+  std::optional<double> index;
   Interpolation interpolation = Interpolation::linear;
   // Instead of what the snapshots say of their cosmology. hubble_rate is H0 in their unit of
   // velocity over their unit of length: 0.1 for km/s and kpc/h.

@@ -69,10 +69,9 @@ void add_look(CLI::App& sub, DrawOptions& options) {
 // What render and movie take alike.
 void add_draw_options(CLI::App& sub, DrawOptions& options) {
   add_scene_options(sub, options);
-  sub.add_option("--tolerance", options.tolerance,
-                 wrapped("Largest error of a pixel, in units of the display's white; 0: as exact "
-                         "as possible. Default: the scene's, or 0.001"))
-      ->type_name("X");
+  add_number(sub, "--tolerance", options.tolerance, "X",
+             "Largest error of a pixel, in units of the display's white; 0: as exact as possible. "
+             "Default: the scene's, or 0.001");
   add_look(sub, options);
   sub.add_option(
          "--tree", options.tree,
@@ -154,11 +153,10 @@ void add_publish(CLI::App& app, Run& run, Console& console) {
       ->type_name("FILE");
   add_scene_options(*sub, *options);
   add_look(*sub, *options);
-  sub->add_option("--splats", options->splats,
-                  wrapped("How many splats of light stand for the particles at most; a million "
-                          "takes some 15 MB. Default: 400000, for other viewers 100000"))
-      ->check(CLI::Range(1, 4000000))
-      ->type_name("N");
+  add_number(*sub, "--splats", options->splats, "N",
+             "How many splats of light stand for the particles at most, up to 4000000; a million "
+             "takes some 15 MB. Default: 400000, for other viewers 100000",
+             std::pair(1, 4000000));
   sub->add_option("--title", options->title,
                   wrapped("What the page is called. Default: the scene's title, or its name"))
       ->type_name("TEXT");
@@ -218,12 +216,11 @@ void add_movie(CLI::App& app, Run& run, Console& console) {
   sub->add_option("--follow", options->follow, wrapped("Orbit around it, wherever it goes"))
       ->excludes(dive)
       ->type_name("WHERE");
-  sub->add_option("--dome", options->dome,
-                  wrapped("A master for planetariums, of so many pixels: 180 degrees, what the "
-                          "camera looks at in front, at the bottom, 15 degrees above the rim, 30 "
-                          "frames per second"))
-      ->check(CLI::Range(64, 8192))
-      ->type_name("SIZE");
+  add_number(*sub, "--dome", options->dome, "SIZE",
+             "A master for planetariums, of so many pixels, 64 to 8192: 180 degrees, what the "
+             "camera looks at in front, at the bottom, 15 degrees above the rim, 30 frames per "
+             "second",
+             std::pair(64, 8192));
   sub->add_flag(
       "--test-frame", options->test_frame,
       wrapped("Draw, instead of the film, one picture that shows whether a dome shows all "
@@ -275,10 +272,9 @@ void add_compare(CLI::App& app, Run& run, Console& console) {
   sub->add_option("A", options->image, wrapped("A picture"))->required();
   sub->add_option("B", options->reference, wrapped("The picture to compare with, of the same size"))
       ->required();
-  sub->add_option("--limit", options->limit,
-                  wrapped("Count the pixels with |A - B| > X max(1, |B|) in any channel; 1 is the "
-                          "display's white"))
-      ->type_name("X");
+  add_number(*sub, "--limit", options->limit, "X",
+             "Count the pixels with |A - B| > X max(1, |B|) in any channel; 1 is the display's "
+             "white");
   sub->add_option("--diff", options->difference,
                   wrapped("Write a picture of A - B: grey if equal, brighter where A is brighter, "
                           "darker where A is darker"))
@@ -373,6 +369,11 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
   if (const std::optional<std::string> option = unknown_option(app)) {
     text = "there is no option " + *option +
            did_you_mean(nearest_name(*option, option_names(command)));
+  }
+  const std::string twice = ": At Most 1 required but received ";
+  if (const std::size_t place = text.find(twice); place != std::string::npos) {
+    text = text.substr(0, place) + ": found it " + text.substr(place + twice.size()) +
+           " times, expected it once";
   }
   if (used.empty()) return text + "; see splotchcl --help";
   return command.get_name() + ": " + text + "; see splotchcl " + command.get_name() + " --help";

@@ -123,7 +123,7 @@ ImageDifference measure(const CompareOptions& options, const Image& image, const
 
 int run_compare(const CompareOptions& options, Console& console) {
   if (options.limit && !(*options.limit >= 0)) {
-    throw UsageError(fmt::format("--limit: {} is not a number >= 0", *options.limit));
+    throw UsageError(fmt::format("--limit: found {}, expected a number >= 0", *options.limit));
   }
   if (options.difference) {
     check_image_path(*options.difference);

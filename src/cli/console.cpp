@@ -58,6 +58,8 @@ const std::vector<KeyOfOption>& common_keys() {
       {"map.center_at", "--center"},
       {"map.width", "--width"},
       {"map.contour_count", "--contours"},
+      {"particles", "--particles"},
+      {"stars", "--stars"},
   };
   return keys;
 }

@@ -38,6 +38,29 @@ void check_units(const DrawOptions& options) {
 
 }  // namespace
 
+void refuse_beside_reference(const DrawOptions& options, std::vector<GivenOption> of_device) {
+  if (!options.reference) return;
+  of_device.push_back({"--device", !options.device.empty()});
+  of_device.push_back({"--memory", options.memory_bytes > 0});
+  of_device.push_back({"--tree", options.tree == TreeUse::only});
+  for (const GivenOption& option : of_device) {
+    if (!option.is_given) continue;
+    throw UsageError(
+        fmt::format("{}: found it beside --reference, which draws without a device, expected one "
+                    "of the two",
+                    option.name));
+  }
+}
+
+void refuse_without_output(const std::vector<GivenOption>& of_drawing) {
+  for (const GivenOption& option : of_drawing) {
+    if (!option.is_given) continue;
+    throw UsageError(fmt::format(
+        "{}: found it beside --explain without --output, where nothing is drawn, expected --output",
+        option.name));
+  }
+}
+
 std::vector<std::string> settings_of(const DrawOptions& options) {
   std::vector<std::string> settings = common_settings_of(options);
   const auto add = [&settings](const char* key, const std::string& value) {

@@ -16,6 +16,16 @@
 
 namespace splotchcl::cli {
 
+// An option that would do nothing beside others.
+struct GivenOption {
+  const char* name;
+  bool is_given;
+};
+// Throw UsageError for the first one that is given: those that only a device heeds, of all
+// DrawOptions and of one command, and those that need something drawn.
+void refuse_beside_reference(const DrawOptions& options, std::vector<GivenOption> of_device);
+void refuse_without_output(const std::vector<GivenOption>& of_drawing);
+
 // What --explain prints: the plan, and what it will take to draw, as comments; then the scene. So
 // the whole is a scene file. `pictures` are how many frames of a film look like this one.
 void print_explanation(const FramePlan& plan, const Frame& frame, const Scene& scene,

@@ -3,12 +3,19 @@
 #include "cli/commands.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
+#include "common/words.h"
 #include "generate/large_universe.h"
+#include "splotchcl/error.h"
 #include "splotchcl/galaxy.h"
 #include "splotchcl/generate.h"
 
 namespace splotchcl::cli {
 namespace {
+
+bool is_hdf5_name(const std::filesystem::path& file) {
+  const std::string ending = lower_ending(file);
+  return ending == ".hdf5" || ending == ".h5";
+}
 
 int generate_large_universe(const GenerateOptions& options, Console& console) {
   const Stopwatch stopwatch;
@@ -25,6 +32,12 @@ int generate_large_universe(const GenerateOptions& options, Console& console) {
 
 int run_generate(const GenerateOptions& options, Console& console) {
   check_output_path(options.output);
+  if (is_hdf5_name(options.output)) {
+    throw UsageError(fmt::format(
+        "--output: found {}, expected a name that does not end as HDF5 does: the snapshot is in "
+        "Gadget's format 2",
+        options.output.string()));
+  }
   if (options.what == "universe" && options.settings.particles > LargeUniverse::least)
     return generate_large_universe(options, console);
   const Stopwatch stopwatch;
@@ -67,6 +80,11 @@ int run_galaxy(const GalaxyOptions& options, Console& console) {
     if (options.rotation_curve) inputs.insert(*options.rotation_curve);
     return inputs;
   });
+  if (!is_hdf5_name(options.output)) {
+    throw UsageError(fmt::format(
+        "--output: found {}, expected a name that ends in .hdf5 or .h5: the snapshot's format",
+        options.output.string()));
+  }
   GalaxySettings settings = options.settings;
   settings.rotation = options.rotation_curve ? read_rotation_curve(*options.rotation_curve)
                                              : RotationCurve::flat(options.speed, options.core);

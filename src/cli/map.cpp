@@ -7,6 +7,7 @@
 
 #include "cli/command_builder.h"
 #include "cli/commands.h"
+#include "cli/draw_options.h"
 #include "cli/scene_options.h"
 #include "common/guards.h"
 #include "common/output_files.h"
@@ -39,10 +40,9 @@ void add_map(CLI::App& app, Run& run, Console& console) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   add_map_options(*sub, *options);
-  sub->add_option("--tolerance", options->tolerance,
-                  wrapped("Largest error of each sum, relative to it, or to map.floor if it is "
-                          "below that; 0: 1e-6. Default: the scene's, or 0.001"))
-      ->type_name("X");
+  add_number(*sub, "--tolerance", options->tolerance, "X",
+             "Largest error of each sum, relative to it, or to map.floor if it is below that; 0: "
+             "1e-6. Default: the scene's, or 0.001");
   add_scene_options(*sub, *options);
   sub->footer(
       "Examples:\n"
@@ -196,6 +196,7 @@ std::string size_of(const Map& map) {
 }  // namespace
 
 int run_map(const MapOptions& options, Console& console) {
+  refuse_beside_reference(options, {});
   if (!options.text_of("quantity").empty() && !options.field.empty()) {
     throw UsageError("map: found --quantity and --field, expected one of them: they say the same");
   }

@@ -319,10 +319,17 @@ void tell_result(const FilmResult& result, const MovieOptions& options, Console&
 }  // namespace
 
 int run_movie(const MovieOptions& options, Console& console) {
+  refuse_beside_reference(options, {});
   if (!options.output && !options.explain) {
     throw UsageError(
         "movie: found no --output, expected a film such as film.mp4, or numbered images such as "
         "frame_%04d.png; see splotchcl movie --help");
+  }
+  if (!options.output) {
+    refuse_without_output({{"--stats", options.stats.has_value()},
+                           {"--timeline", options.timeline.has_value()},
+                           {"--join", options.join},
+                           {"--part", !options.part.empty()}});
   }
   if (options.test_frame) {
     if (!options.output) throw UsageError("--test-frame: found no --output, expected a picture");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/draw_options.h"
 #include "cli/processes.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
@@ -176,6 +177,7 @@ void publish_page(const std::filesystem::path& path, const Scene& scene, const F
 }  // namespace
 
 int run_publish(const PublishOptions& options, Console& console) {
+  refuse_beside_reference(options, {});
   const std::filesystem::path path = page_path(options.output);
   check_page_path(path);
   const SceneWithSnapshot source = open_scene(options.scene, settings_of(options));

@@ -35,8 +35,8 @@ Rectangle parse_crop(const std::string& text) {
     next = after;
   }
   if (!good || next != end) {
-    throw UsageError("--crop: '" + text +
-                     "' is not X,Y,W,H, four whole numbers of pixels such as 0,0,256,256");
+    throw UsageError("--crop: found '" + text +
+                     "', expected X,Y,W,H, four whole numbers of pixels such as 0,0,256,256");
   }
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
@@ -207,10 +207,13 @@ std::string by_processes(const RenderStats& stats) {
 }  // namespace
 
 int run_render(const RenderOptions& options, Console& console) {
+  refuse_beside_reference(options, {{"--certify", options.certify},
+                                    {"--shape", options.shape != CompositeShape::automatic}});
   const std::shared_ptr<Communicator> ranks = join_processes(console);
   const bool writes = writes_files(ranks);
   // Whatever would fail at the end is tried first.
   const std::optional<std::filesystem::path> output = choose_output(options);
+  if (!output) refuse_without_output({{"--stats", options.stats.has_value()}});
   std::optional<SceneWithSnapshot> opened;
   std::optional<FrameDrawer> drawer;
   RenderReport report;

@@ -42,14 +42,12 @@ void add_reading(CLI::App& sub, DrawOptions& options) {
                  wrapped("Units of a snapshot that does not say them: cgs, si, or gadget, which "
                          "stands for a kpc/h, 1e10 Msun/h and a^0.5 km/s"))
       ->type_name("NAME")
-      ->check(CLI::IsMember({"gadget", "cgs", "si"}));
-  sub.add_option("--every", options.every,
-                 wrapped("Use every N-th particle, which counts for as much as is left out: a "
-                         "quick look at much data"))
-      ->type_name("N");
-  sub.add_option("--max-particles", options.max_particles,
-                 wrapped("Use at most N particles, chosen at random, likewise"))
-      ->type_name("N");
+      ->check(one_of({"gadget", "cgs", "si"}));
+  add_number(sub, "--every", options.every, "N",
+             "Use every N-th particle, which counts for as much as is left out: a quick look at "
+             "much data");
+  add_number(sub, "--max-particles", options.max_particles, "N",
+             "Use at most N particles, chosen at random, likewise");
   sub.add_flag(
       "--cache-smoothing-lengths", options.cache_smoothing_lengths,
       wrapped("Store computed smoothing lengths in a file beside the snapshot, and reuse them"));

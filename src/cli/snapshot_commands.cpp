@@ -1,7 +1,6 @@
-#include <limits>
-
 #include "cli/command_builder.h"
 #include "cli/commands.h"
+#include "snapshot/field_names.h"
 
 namespace splotchcl::cli {
 namespace {
@@ -18,18 +17,19 @@ void add_snapshot_question(CLI::App& sub, SnapshotQuestion& options) {
              "Or NAME=COLUMN for each that is called otherwise, in HDF5 NAME=DATASET"))
       ->type_name("NAME,...")
       ->delimiter(',');
-  sub.add_option("--skip-lines", options.skip_lines,
-                 wrapped("Lines at the beginning of a text table that are no part of it"))
-      ->type_name("N")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max()).description(""));
+  add_number(sub, "--skip-lines", options.skip_lines, "N",
+             "Lines at the beginning of a text table that are no part of it");
   sub.add_flag("--json", options.json, wrapped("Print JSON"));
 }
 
-// Without it -1 is read as the largest number that there is.
-const CLI::Validator not_negative(
-    [](const std::string& number) {
-      return number.rfind('-', 0) == 0 ? "found " + number + ", expected a whole number >= 0"
-                                       : std::string();
+// From its name to its number, as scenes have them.
+const CLI::Validator type_by_name(
+    [](std::string& name) {
+      const std::optional<int> type = find_particle_type(name);
+      if (type) name = std::to_string(*type);
+      return type || parse_whole_number(name)
+                 ? std::string()
+                 : "found " + name + ", expected a particle type, such as gas or 0";
     },
     "");
 
@@ -80,20 +80,20 @@ void add_tree(CLI::App& app, Run& run, Console& console) {
   sub->add_option("SNAPSHOT", options->snapshot,
                   wrapped("A snapshot; for a set of files, any one of them"))
       ->required();
-  sub->add_option("--types", options->types, wrapped("Particle types. Default: all"))
-      ->type_name("N,...")
+  sub->add_option("--types", options->types,
+                  wrapped("Only these particle types: gas,stars or 0,4. Default: all"))
+      ->type_name("LIST")
+      ->transform(type_by_name)
       ->delimiter(',');
   sub->add_option("--fields", options->fields,
                   wrapped("Fields to color by, at most four, which all these types have. Default: "
                           "what a first picture uses"))
       ->type_name("NAME,...")
       ->delimiter(',');
-  sub->add_option(
-         "--least", options->least,
-         wrapped("Particles of a node at least, 2 to 32. Default: 4; 8 takes half the room "
-                 "and serves less exact pictures as well"))
-      ->type_name("N")
-      ->check(CLI::Range(2, 32));
+  add_number(*sub, "--least", options->least, "N",
+             "Particles of a node at least, 2 to 32. Default: 4; 8 takes half the room and serves "
+             "less exact pictures as well",
+             std::pair(2, 32));
   sub->add_flag("--with-particles", options->with_particles,
                 wrapped("Keep what scenes ask of the particles in the tree, too, exactly and in "
                         "its order: 20 bytes each and more, so that what lies together in space "
@@ -152,25 +152,19 @@ void add_generate(CLI::App& app, Run& run, Console& console) {
                           "cluster of galaxies with infalling groups and cold streams; halo: a "
                           "spiral galaxy with satellites in hot gas"))
       ->required()
-      ->check(CLI::IsMember({"universe", "cluster", "halo"}));
+      ->check(one_of({"universe", "cluster", "halo"}));
   sub->add_option("-o,--output", options->output,
                   wrapped("The snapshot, Gadget format 2; of a universe of more than 30 million "
                           "particles in files FILE.0, FILE.1, ..."))
       ->required()
       ->type_name("FILE");
-  sub->add_option("--particles", options->settings.particles,
-                  wrapped("Number of gas and star particles"))
-      ->type_name("N")
-      ->check(not_negative)
+  GenerateSettings& settings = options->settings;
+  add_number(*sub, "--particles", settings.particles, "N", "Number of gas and star particles")
       ->capture_default_str();
-  sub->add_option("--stars", options->settings.star_fraction,
-                  wrapped("The fraction of them that are stars"))
-      ->type_name("FRACTION")
+  add_number(*sub, "--stars", settings.star_fraction, "FRACTION",
+             "The fraction of them that are stars")
       ->capture_default_str();
-  sub->add_option("--seed", options->settings.seed,
-                  wrapped("The same seed makes the same particles"))
-      ->type_name("N")
-      ->check(not_negative)
+  add_number(*sub, "--seed", settings.seed, "N", "The same seed makes the same particles")
       ->capture_default_str();
   sub->footer(
       "Units are Gadget's: kpc/h, 1e10 solar masses/h, km/s.\n"
@@ -187,31 +181,24 @@ void add_picture_options(CLI::App& sub, GalaxyOptions& options) {
                  wrapped("The galaxy's centre in pixels from the left and top. Default: the centre "
                          "of light"))
       ->type_name("X,Y")
+      ->check(any_number())
       ->delimiter(',');
-  sub.add_option("--inclination", s.inclination_degrees,
-                 wrapped("Degrees by which the disk is tilted, 0 (face-on) to 80"))
-      ->type_name("DEG")
+  add_number(sub, "--inclination", s.inclination_degrees, "DEG",
+             "Degrees by which the disk is tilted, 0 (face-on) to 80")
       ->capture_default_str();
-  sub.add_option("--position-angle", s.position_angle_degrees,
-                 wrapped("Degrees from up, counter-clockwise, of the tilted disk's longest "
-                         "diameter"))
-      ->type_name("DEG")
+  add_number(sub, "--position-angle", s.position_angle_degrees, "DEG",
+             "Degrees from up, counter-clockwise, of the tilted disk's longest "
+             "diameter")
       ->capture_default_str();
-  sub.add_option("--radius", s.radius_pixels,
-                 wrapped("Radius of the galaxy in pixels along its longest diameter; excludes "
-                         "companions. Default: the whole picture"))
-      ->type_name("PIXELS");
-  sub.add_option("--size", s.size_kpc, wrapped("Length of the picture's longer side, in kpc"))
-      ->type_name("KPC")
+  add_number(sub, "--radius", s.radius_pixels, "PIXELS",
+             "Radius of the galaxy in pixels along its longest diameter; excludes "
+             "companions. Default: the whole picture");
+  add_number(sub, "--size", s.size_kpc, "KPC", "Length of the picture's longer side, in kpc")
       ->capture_default_str();
-  sub.add_option("--gamma", options.gamma,
-                 wrapped("Light = value^gamma. Default: 2.2 for whole numbers, 1 for floats"))
-      ->type_name("G");
-  sub.add_option(
-         "--threshold", s.threshold,
-         wrapped(
-             "How far a pixel must exceed the sky, in standard deviations of the border's noise"))
-      ->type_name("K")
+  add_number(sub, "--gamma", options.gamma, "G",
+             "Light = value^gamma. Default: 2.2 for whole numbers, 1 for floats");
+  add_number(sub, "--threshold", s.threshold, "K",
+             "How far a pixel must exceed the sky, in standard deviations of the border's noise")
       ->capture_default_str();
   sub.add_flag_callback(
       "--keep-stars", [&s] { s.removes_stars = false; },
@@ -220,7 +207,7 @@ void add_picture_options(CLI::App& sub, GalaxyOptions& options) {
 
 void add_matter_options(CLI::App& sub, GalaxySettings& s) {
   const auto add = [&sub](const char* name, auto& value, const char* type, const char* help) {
-    sub.add_option(name, value, wrapped(help))->type_name(type)->capture_default_str();
+    add_number(sub, name, value, type, help)->capture_default_str();
   };
   add("--flare", s.flare, "X",
       "Heights at the rim are e^(X / 2) times those given here, in the middle e^(-X / 2)");
@@ -248,11 +235,9 @@ void add_matter_options(CLI::App& sub, GalaxySettings& s) {
 }
 
 void add_rotation_options(CLI::App& sub, GalaxyOptions& options) {
-  sub.add_option("--speed", options.speed, wrapped("Speed of the flat rotation curve"))
-      ->type_name("KM/S")
+  add_number(sub, "--speed", options.speed, "KM/S", "Speed of the flat rotation curve")
       ->capture_default_str();
-  sub.add_option("--core", options.core, wrapped("Radius within which it turns like a solid body"))
-      ->type_name("KPC")
+  add_number(sub, "--core", options.core, "KPC", "Radius within which it turns like a solid body")
       ->capture_default_str();
   sub.add_option("--rotation-curve", options.rotation_curve,
                  wrapped("Use a rotation curve from a file of two columns, kpc and km/s"))
@@ -305,30 +290,23 @@ void add_evolve(CLI::App& app, Run& run, Console& console) {
   sub->add_option("--snapshots", options->snapshots,
                   wrapped("Write a snapshot of each frame, such as turn_%04d.hdf5"))
       ->type_name("FILES");
-  sub->add_option("--duration", options->duration_myr,
-                  wrapped("Time from the first frame to the last, in Myr. Default: until the arms "
-                          "wind up, or one turn of the pattern"))
-      ->type_name("MYR");
-  sub->add_option("--frames", options->frames, wrapped("Number of frames"))
-      ->type_name("N")
-      ->capture_default_str();
+  add_number(*sub, "--duration", options->duration_myr, "MYR",
+             "Time from the first frame to the last, in Myr. Default: until the arms "
+             "wind up, or one turn of the pattern");
+  add_number(*sub, "--frames", options->frames, "N", "Number of frames")->capture_default_str();
   sub->add_flag("--first-order", options->first_order,
                 wrapped("Take steps along the tangent, as in the paper, instead of exact circles"));
-  sub->add_option("--step", options->step_myr,
-                  wrapped("Length of such a step. Default: from one frame to the next"))
-      ->type_name("MYR");
-  sub->add_option("--speed", options->speed,
-                  wrapped("Speed of a flat rotation curve. Default: the galaxy's own velocities"))
-      ->type_name("KM/S");
-  sub->add_option("--core", options->core,
-                  wrapped("Radius within which that curve is a solid body's. Default: 1"))
-      ->type_name("KPC");
+  add_number(*sub, "--step", options->step_myr, "MYR",
+             "Length of such a step. Default: from one frame to the next");
+  add_number(*sub, "--speed", options->speed, "KM/S",
+             "Speed of a flat rotation curve. Default: the galaxy's own velocities");
+  add_number(*sub, "--core", options->core, "KPC",
+             "Radius within which that curve is a solid body's. Default: 1");
   sub->add_option("--rotation-curve", options->rotation_curve,
                   wrapped("Use a rotation curve from a file of two columns, kpc and km/s"))
       ->type_name("FILE");
-  sub->add_option("--pattern-speed", options->pattern_speed,
-                  wrapped("Turn the arms as a whole at this speed, for long films"))
-      ->type_name("KM/S/KPC");
+  add_number(*sub, "--pattern-speed", options->pattern_speed, "KM/S/KPC",
+             "Turn the arms as a whole at this speed, for long films");
   sub->add_option("--part", options->part, wrapped("Make only the K-th of N shares of the frames"))
       ->type_name("K/N");
   sub->add_option("--device", options->device,

@@ -28,8 +28,7 @@ void add_view(CLI::App& app, Run& run, Console& console) {
                                [&console](const ViewOptions& o) { return run_view(o, console); });
   sub->add_option("SCENE", options->scene, wrapped("A scene file (.toml, .par) or a snapshot"))
       ->required();
-  sub->add_option("--port", options->port, wrapped("Port of the page; 0: any that is free"))
-      ->type_name("N")
+  add_number(*sub, "--port", options->port, "N", "Port of the page; 0: any that is free")
       ->capture_default_str();
   sub->add_option("--bind", options->address,
                   wrapped("Address to listen on. Any other than this machine's own lets others on "

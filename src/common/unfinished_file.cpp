@@ -63,6 +63,7 @@ bool WritingProcess::is_of_this_machine() const {
 
 bool WritingProcess::is_running() const {
   if (::kill(number, 0) != 0 && errno == ESRCH) return false;
+  if (of_system::is_only_number(number)) return false;
   const std::uint64_t start_now = start == 0 ? 0 : of_system::start_of_process(number);
   return start_now == 0 || start_now == start;
 }

@@ -216,13 +216,13 @@ GalaxyParticles make_clusters(const LightMap& map, const GalaxySettings& setting
 
 void check_above(double value, double limit, const char* what) {
   if (std::isfinite(value) && value > limit) return;
-  throw UsageError(fmt::format("{} is {}, expected a finite number > {}", what, value, limit));
+  throw UsageError(fmt::format("{}: found {}, expected a finite number > {}", what, value, limit));
 }
 
 void check_between(double value, double least, double largest, const char* what) {
   if (value >= least && value <= largest) return;
   throw UsageError(
-      fmt::format("{} is {}, expected a number from {} to {}", what, value, least, largest));
+      fmt::format("{}: found {}, expected a number from {} to {}", what, value, least, largest));
 }
 
 // Throws UsageError that names the setting.
@@ -345,6 +345,7 @@ Galaxy make_galaxy(const Image& picture, const GalaxySettings& given, double fil
 Galaxy read_galaxy(const std::filesystem::path& path, const GalaxySettings& settings,
                    std::optional<double> gamma) {
   check_settings(settings);
+  if (gamma) check_above(*gamma, 0, "the picture's gamma");
   const ImageFileInfo info = read_image_info(path);
   LinearImageOptions options;
   options.gamma = gamma;

@@ -1,5 +1,7 @@
 #include "generate/gas.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 #include <string>
@@ -37,12 +39,13 @@ void find_density(GeneratedSnapshot& snapshot) {
 
 ParticleShares share_particles(const GenerateSettings& settings, std::uint64_t most) {
   if (settings.particles < least_gas || settings.particles > most) {
-    throw UsageError("particles: " + std::to_string(settings.particles) + " is not between " +
-                     std::to_string(least_gas) + " and " + std::to_string(most));
+    throw UsageError(fmt::format("particles: found {}, expected a whole number from {} to {}",
+                                 settings.particles, least_gas, most));
   }
   if (!(settings.star_fraction >= 0 && settings.star_fraction <= 0.9)) {
-    throw UsageError("stars: " + std::to_string(settings.star_fraction) +
-                     " is not a fraction of the particles between 0 and 0.9");
+    throw UsageError(
+        fmt::format("stars: found {}, expected a fraction of the particles from 0 to 0.9",
+                    settings.star_fraction));
   }
   ParticleShares shares;
   shares.stars = static_cast<std::uint64_t>(

@@ -158,7 +158,7 @@ Camera choose_camera(const Scene& scene, const Snapshot& snapshot) {
         "the scene has no camera and every component is placed elsewhere than its snapshot has "
         "it, expected a camera; add a [camera]");
   }
-  return suggest_camera(suggest_target(snapshot, types, scene.image.width, scene.image.height));
+  return suggest_camera(suggest_target(snapshot, types, scene.image), scene.image);
 }
 
 // Read once for all frames of a film.

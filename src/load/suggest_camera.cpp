@@ -178,14 +178,19 @@ struct Span {
 };
 
 // What a picture must span along an axis: without a few particles far out, which would make all
-// else small, but with all of what ends sharply. What is long and narrow fills the width.
+// else small, but with all of what ends sharply. What is long and narrow has none and fills the
+// width.
 Span span_to_show(std::vector<double>& along, Target::Shape shape) {
   constexpr double outliers = 0.05, few_outliers = 0.01;
-  constexpr double wide_margin = 1.6;
-  const double margin = shape == Target::Shape::bar ? 1.06 : 1.25;
+  constexpr double wide_margin = 1.6, close_margin = 1.25, bar_margin = 1.06;
+  const auto half = [](const ValueRange& range) { return 0.5 * (range.maximum - range.minimum); };
+  if (shape == Target::Shape::bar) {
+    const ValueRange all = extent(along, 0);
+    return {middle(all), bar_margin * half(all)};
+  }
   const ValueRange most = extent(along, outliers), nearly_all = extent(along, few_outliers);
-  const Span wide = {middle(most), 0.5 * wide_margin * (most.maximum - most.minimum)};
-  const Span close = {middle(nearly_all), 0.5 * margin * (nearly_all.maximum - nearly_all.minimum)};
+  const Span wide = {middle(most), wide_margin * half(most)};
+  const Span close = {middle(nearly_all), close_margin * half(nearly_all)};
   return close.half < wide.half ? close : wide;
 }
 
@@ -299,6 +304,18 @@ std::vector<int> types_to_frame(const std::vector<int>& types) {
   return bright.empty() ? types : bright;
 }
 
+double aspect_of(const ImageSettings& image) {
+  return static_cast<double>(image.height) / image.width;
+}
+
+// A picture that is taller than wide shows the box's whole height.
+double box_degrees(double aspect) {
+  if (aspect <= 1) return suggested_degrees;
+  const double tangent = std::tan(0.5 * suggested_degrees * pi / 180) / aspect;
+  const double degrees = 2 * std::atan(tangent) * 180 / pi;
+  return round_to_decimals(degrees, decimals_for(degrees, 4));
+}
+
 // A number that reads well in a scene file: four digits of the size of the target.
 double rounded(double value, double size) {
   return round_to_decimals(value, decimals_for(size, 4));
@@ -314,17 +331,17 @@ std::vector<int> types_of(const std::vector<Component>& components) {
   return types;
 }
 
-Target suggest_target(const Snapshot& snapshot, const std::vector<int>& types, int width,
-                      int height) {
-  return find_target(snapshot, types_to_frame(types), static_cast<double>(height) / width);
+Target suggest_target(const Snapshot& snapshot, const std::vector<int>& types,
+                      const ImageSettings& image) {
+  return find_target(snapshot, types_to_frame(types), aspect_of(image));
 }
 
-Camera suggest_camera(const Target& target) {
-  const double half_angle = 0.5 * suggested_degrees * pi / 180;
-  const double distance = target.shape == Target::Shape::box ? box_distance * target.size
-                                                             : target.size / std::tan(half_angle);
+Camera suggest_camera(const Target& target, const ImageSettings& image) {
+  const bool is_box = target.shape == Target::Shape::box;
+  const double tangent = std::tan(0.5 * suggested_degrees * pi / 180);
+  const double distance = is_box ? box_distance * target.size : target.size / tangent;
   Camera camera;
-  camera.field_of_view_degrees = suggested_degrees;
+  camera.field_of_view_degrees = is_box ? box_degrees(aspect_of(image)) : suggested_degrees;
   camera.sky = target.sky;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     camera.look_at.a[axis] = rounded(target.center.a[axis], target.size);
@@ -332,6 +349,18 @@ Camera suggest_camera(const Target& target) {
         rounded(target.center.a[axis] + distance * target.towards_camera.a[axis], target.size);
   }
   return camera;
+}
+
+void stand_amid_matter(Camera& camera) {
+  // What a picture of 45 degrees shows from afar is half as wide as the way to it, or wider.
+  constexpr double part_of_way = 0.2;
+  const Vec3 way = part_of_way * (camera.position - camera.look_at);
+  const double distance = boost::qvm::mag(way);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    camera.position.a[axis] = rounded(camera.look_at.a[axis] + way.a[axis], distance);
+  if (camera.near_limit || camera.fade.near_length > 0) return;
+  camera.fade.near_length = rounded(distance, distance);
+  camera.through_clouds = false;
 }
 
 }  // namespace splotchcl

@@ -45,12 +45,17 @@ Target find_target(const Snapshot& snapshot, const std::vector<int>& types, doub
 // All that these components draw, one after the other.
 std::vector<int> types_of(const std::vector<Component>& components);
 
-// What a picture of these particle types is about. Throws as find_target does.
-Target suggest_target(const Snapshot& snapshot, const std::vector<int>& types, int width,
-                      int height);
+// What such a picture of these particle types is about. Throws as find_target does.
+Target suggest_target(const Snapshot& snapshot, const std::vector<int>& types,
+                      const ImageSettings& image);
 
 // A camera that shows what these particle types do: a periodic box from close enough
-// that it fills the picture, anything else whole but for its outliers.
-Camera suggest_camera(const Target& target);
+// that it fills the picture, whatever its shape, anything else whole but for its outliers.
+Camera suggest_camera(const Target& target, const ImageSettings& image);
+
+// Brings such a camera that looks in all directions so near that matter is around it. What comes
+// close fades, so that clouds around the camera, of which there are thousands there, need not be
+// looked through; not where a near limit or a fade is given.
+void stand_amid_matter(Camera& camera);
 
 }  // namespace splotchcl

@@ -361,7 +361,7 @@ std::string tell_not_drawn(const Scene& scene, const Snapshot& snapshot) {
   return text;
 }
 
-Scene suggest_scene(const Snapshot& snapshot, Look look) {
+Scene suggest_scene(const Snapshot& snapshot, Look look, const ImageSettings& image) {
   const SnapshotInfo& info = snapshot.info();
   if (info.types.empty()) {
     throw DataError(info.files.front().string() +
@@ -373,9 +373,8 @@ Scene suggest_scene(const Snapshot& snapshot, Look look) {
   scene.image.gamma = gamma;
   show_all_light(scene.finish);
   scene.components = choose_components(snapshot);
-  const Target target =
-      suggest_target(snapshot, types_of(scene.components), scene.image.width, scene.image.height);
-  scene.camera = suggest_camera(target);
+  const Target target = suggest_target(snapshot, types_of(scene.components), image);
+  scene.camera = suggest_camera(target, image);
   if (look != Look::classic) change_to_press(snapshot, scene);
   if (look == Look::paper) change_to_paper(scene);
   if (target.is_smooth) {

@@ -8,6 +8,7 @@
 #include "common/words.h"
 #include "formats/snapshot_format.h"
 #include "load/passes.h"
+#include "load/suggest_camera.h"
 #include "open_scene/short_keys.h"
 #include "open_scene/shown_snapshot.h"
 #include "ranks/exchange.h"
@@ -38,11 +39,55 @@ std::string key_of(const std::string& setting) {
   return trimmed(setting.substr(0, setting.find('=')));
 }
 
+// Which numbers a pattern's snapshots may have: of these one is looked at.
+std::vector<std::string> range_settings_in(const std::vector<std::string>& settings) {
+  std::vector<std::string> own;
+  std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
+               [](const std::string& setting) {
+                 return key_of(setting) == "time.first" || key_of(setting) == "time.last";
+               });
+  return own;
+}
+
 Look look_in(const std::vector<std::string>& settings, Look otherwise) {
   std::vector<std::string> own;
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
                [](const std::string& setting) { return key_of(setting) == "look"; });
   return apply_settings(Scene(), own).look.value_or(otherwise);
+}
+
+// The picture for which a scene's camera is chosen. One that looks in all directions frames
+// nothing.
+ImageSettings framed_picture(const Scene& scene) {
+  return is_wide_angle(scene.camera->projection) ? ImageSettings() : scene.image;
+}
+
+// That of a scene to which these settings will be applied.
+ImageSettings framed_picture(const std::vector<std::string>& settings) {
+  constexpr std::array<const char*, 6> keys = {"image.size",           "image.width",
+                                               "image.height",         "camera.projection",
+                                               "camera.field_of_view", "camera.width"};
+  std::vector<std::string> own;
+  for (const std::string& setting : settings) {
+    if (std::count(keys.begin(), keys.end(), key_of(setting)) > 0) own.push_back(setting);
+  }
+  Scene begun;
+  begun.camera.emplace();
+  return framed_picture(scene_file::apply_settings_to_suggested(begun, &begun, own));
+}
+
+// A camera that settings left where it was chosen stands amid the matter where they make it look in
+// all directions. Returns what counts as chosen from then on.
+Camera look_all_around(Camera chosen, Camera& camera) {
+  const bool is_moved = camera.position != chosen.position || camera.look_at != chosen.look_at ||
+                        camera.through_clouds != chosen.through_clouds;
+  if (is_moved || !is_wide_angle(camera.projection)) return chosen;
+  stand_amid_matter(camera);
+  chosen.position = camera.position;
+  if (camera.through_clouds) return chosen;
+  chosen.fade.near_length = camera.fade.near_length;
+  chosen.through_clouds = false;
+  return chosen;
 }
 
 // component.NAME.types=...
@@ -88,7 +133,7 @@ std::string key_of_types(std::size_t component, const std::string& name,
 // What was suggested for other types than a setting wants does not fit them: it is suggested anew,
 // and so is the camera.
 Scene with_wanted_types(Scene suggested, const std::vector<std::string>& settings,
-                        const Snapshot& snapshot, Look look) {
+                        const Snapshot& snapshot, Look look, const ImageSettings& image) {
   std::vector<std::string> own;
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(own), sets_types);
   if (own.empty()) return suggested;
@@ -106,8 +151,7 @@ Scene with_wanted_types(Scene suggested, const std::vector<std::string>& setting
     suggested.components[i] = suggest_component(snapshot, types, look);
     suggested.components[i].name = name;
   }
-  suggested.camera.reset();
-  suggested.camera = decide_camera(suggested, snapshot);
+  suggested.camera = camera_for(image, suggested, snapshot);
   return suggested;
 }
 
@@ -190,6 +234,15 @@ void refuse_look(const Scene& scene, const std::filesystem::path& path) {
       "components; delete the key, or every [[component]]");
 }
 
+// A scene file before its look has chosen anything: what it says of the camera comes on top of the
+// one that is chosen, and need not say where it stands.
+Scene read_before_its_look(const std::filesystem::path& path,
+                           const std::vector<std::string>& settings) {
+  Scene open;
+  open.camera.emplace();
+  return scene_file::read_scene_file_on(open, path, settings);
+}
+
 // A scene file without components leaves them to its look.
 SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
                                   const std::vector<std::string>& settings, const ShortKeys& keys,
@@ -198,7 +251,7 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(early),
                [](const std::string& setting) { return setting.rfind("component.", 0) != 0; });
   SceneWithSnapshot result;
-  const Scene own = read_scene_file(path);
+  const Scene own = read_before_its_look(path, {});
   if (!own.components.empty() || !own.look) {
     result.scene = read_scene_file(path, settings);
     check_components(result.scene, path);
@@ -208,13 +261,15 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
     keep_types(keys, result.scene);
     return result;
   }
-  const Scene begun = read_scene_file(path, early);
+  const Scene begun = read_before_its_look(path, early);
   result.snapshot = SnapshotSource().at(begun);
   share_passes(*result.snapshot, ranks);
-  Scene suggested = suggest_scene(*result.snapshot, *begun.look);
-  choose_types(keys, *result.snapshot, *begun.look, suggested);
-  suggested = with_wanted_types(suggested, settings, *result.snapshot, *begun.look);
+  const ImageSettings image = framed_picture(begun);
+  Scene suggested = suggest_scene(*result.snapshot, *begun.look, image);
+  choose_types(keys, *result.snapshot, *begun.look, image, suggested);
+  suggested = with_wanted_types(suggested, settings, *result.snapshot, *begun.look, image);
   result.scene = scene_file::read_scene_file_on(suggested, path, settings);
+  result.suggested_camera = look_all_around(*suggested.camera, *result.scene.camera);
   result.scene.look.reset();
   apply_colors(keys, settings, result);
   return result;
@@ -227,17 +282,21 @@ SceneWithSnapshot open_sequence(const std::string& pattern,
   SceneWithSnapshot result;
   Scene begun;
   begun.time.pattern = pattern;
+  begun = apply_settings(begun, range_settings_in(settings));
   const std::vector<ListedSnapshot> list = list_sequence(begun.time);
   begun.time.index = list.back().index;
   result.snapshot = SnapshotSource().at(begun);
   share_passes(*result.snapshot, ranks);
   const Look look = look_in(settings, otherwise);
-  Scene suggested =
-      with_wanted_types(suggest_scene(*result.snapshot, look), settings, *result.snapshot, look);
+  const ImageSettings image = framed_picture(settings);
+  Scene suggested = with_wanted_types(suggest_scene(*result.snapshot, look, image), settings,
+                                      *result.snapshot, look, image);
   suggested.snapshot.clear();
   suggested.time = begun.time;
   result.suggested = suggested;
   result.scene = scene_file::apply_settings_to_suggested(suggested, &suggested, settings);
+  result.suggested->camera = look_all_around(*result.suggested->camera, *result.scene.camera);
+  result.suggested_camera = result.suggested->camera;
   result.scene.look.reset();
   if (result.scene.time.index != begun.time.index)
     result.snapshot = SnapshotSource().at(result.scene);
@@ -256,17 +315,25 @@ SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
   SceneWithSnapshot result;
   result.snapshot = snapshot;
   const Look look = look_in(settings, otherwise);
-  Scene suggested = suggest_scene(*snapshot, look);
-  choose_types(keys, *snapshot, look, suggested);
-  result.suggested = with_wanted_types(suggested, settings, *snapshot, look);
+  const ImageSettings image = framed_picture(settings);
+  Scene suggested = suggest_scene(*snapshot, look, image);
+  choose_types(keys, *snapshot, look, image, suggested);
+  result.suggested = with_wanted_types(suggested, settings, *snapshot, look, image);
   result.scene =
       scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
+  result.suggested->camera = look_all_around(*result.suggested->camera, *result.scene.camera);
+  result.suggested_camera = result.suggested->camera;
   result.scene.look.reset();
   apply_colors(keys, settings, result);
   name_by_types(*result.suggested, result.scene);
   const std::string not_drawn = tell_not_drawn(result.scene, *snapshot);
   if (!not_drawn.empty() && keys.types.empty()) result.notes.push_back(not_drawn);
   return result;
+}
+
+// Which one is drawn, so that all that asks the scene knows it.
+void name_moment(SequenceSettings& time) {
+  if (time.is_set() && !time.index) time.index = list_sequence(time).front().index;
 }
 
 SceneWithSnapshot open_together(const std::filesystem::path& path,
@@ -289,6 +356,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
     result = suggest_for(result.snapshot, settings, keys, otherwise);
   }
   share_passes(*result.snapshot, ranks);
+  name_moment(result.scene.time);
   apply(keys, result);
   return result;
 }

@@ -269,7 +269,14 @@ void keep_types(const ShortKeys& keys, Scene& scene) {
                   fmt::join(names, ", "), drawn));
 }
 
-void choose_types(const ShortKeys& keys, const Snapshot& snapshot, Look look, Scene& suggested) {
+Camera camera_for(const ImageSettings& image, Scene scene, const Snapshot& snapshot) {
+  scene.camera.reset();
+  scene.image = image;
+  return decide_camera(scene, snapshot);
+}
+
+void choose_types(const ShortKeys& keys, const Snapshot& snapshot, Look look,
+                  const ImageSettings& image, Scene& suggested) {
   if (keys.types.empty()) return;
   check_there_are(keys, snapshot);
   const std::vector<Component> all = suggested.components;
@@ -289,8 +296,7 @@ void choose_types(const ShortKeys& keys, const Snapshot& snapshot, Look look, Sc
   }
   suggested.components = std::move(chosen);
   keep_types(keys, suggested);
-  suggested.camera.reset();
-  suggested.camera = decide_camera(suggested, snapshot);
+  suggested.camera = camera_for(image, suggested, snapshot);
 }
 
 void apply_colors(const ShortKeys& keys, const std::vector<std::string>& settings,

@@ -21,8 +21,12 @@ struct ShortKeys {
 ShortKeys take_short_keys(std::vector<std::string>& settings);
 
 // Leaves those of the components that draw one of the types, for others it is suggested anew.
-// Throws UsageError for types of which the snapshot has no particles.
-void choose_types(const ShortKeys& keys, const Snapshot& snapshot, Look look, Scene& suggested);
+// Throws UsageError for types of which the snapshot has no particles. The camera frames them in a
+// picture of the shape of `image`.
+void choose_types(const ShortKeys& keys, const Snapshot& snapshot, Look look,
+                  const ImageSettings& image, Scene& suggested);
+// One that frames what the scene draws in a picture of that shape.
+Camera camera_for(const ImageSettings& image, Scene scene, const Snapshot& snapshot);
 // Of a scene whose components are given: only what of them draws the types.
 void keep_types(const ShortKeys& keys, Scene& scene);
 

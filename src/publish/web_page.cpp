@@ -198,6 +198,17 @@ Json balance_of(const FinishSettings& finish) {
   return columns;
 }
 
+// Where a splat ends, in units of white: what it still shows there, beside dark, is half a step of
+// 255, so that no edge is seen; never less exact than 2e-5, as many lie over a pixel.
+double least_light(const FinishSettings& finish, double gamma) {
+  constexpr double half_a_step = 0.5 / 255, most = 2e-5, least = 1e-7, dark = 1e-6;
+  const double pivot = finish.contrast_pivot, contrast = std::max(finish.contrast, 0.1);
+  const double value = pivot * std::pow(half_a_step / pivot, 1 / contrast);
+  const double white = finish.white.value_or(1);
+  const double slope = tone(finish.tone, dark * white, white) / dark;
+  return std::clamp(std::pow(value, gamma) / slope, least, most);
+}
+
 Json finish_of(const WebPage& page) {
   const FinishSettings& finish = page.finish;
   return {{"gain", std::exp2(finish.exposure.value_or(0))},
@@ -209,7 +220,8 @@ Json finish_of(const WebPage& page) {
           {"contrast", finish.contrast},
           {"pivot", finish.contrast_pivot},
           {"bloom", finish.bloom},
-          {"gamma", page.gamma}};
+          {"gamma", page.gamma},
+          {"least", least_light(finish, page.gamma)}};
 }
 
 Json splats_of(const PackedSplats& splats) {

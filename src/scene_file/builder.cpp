@@ -220,7 +220,7 @@ SceneBuilder::SceneBuilder(Scene scene, const std::string& name_for_messages)
   origins_.name = name_for_messages;
 }
 
-void SceneBuilder::read_text(const std::string& text) {
+void SceneBuilder::read_text(const std::string& text, const Scene* suggested) {
   is_reading_file_ = true;
   assigned_.clear();
   if (const int line = find_deep_key(text); line > 0) {
@@ -236,8 +236,10 @@ void SceneBuilder::read_text(const std::string& text) {
                                  where_in_file(error.source()),
                                  one_line(std::string(error.description()), 300)));
   }
+  const Scene before = scene_;
   assign_table({}, {root, origins_.name});
   refuse_exclusions();
+  if (suggested != nullptr) make_way(before, suggested);
   center_camera();
 }
 
@@ -249,10 +251,15 @@ void SceneBuilder::apply_settings(const std::vector<std::string>& settings,
   for (const std::string& setting : settings)
     apply_setting(setting);
   refuse_exclusions();
+  make_way(before, suggested);
+  center_camera();
+}
+
+// For what was assigned.
+void SceneBuilder::make_way(const Scene& before, const Scene* suggested) {
   const IsGiven is_given = [this](const std::string& label) { return is_assigned(label); };
   if (suggested != nullptr) give_way(before, *suggested, is_given, scene_);
   replace_excluded(is_given, scene_, origins_);
-  center_camera();
 }
 
 Scene SceneBuilder::finish() const {

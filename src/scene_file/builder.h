@@ -19,8 +19,8 @@ class SceneBuilder {
   SceneBuilder(Scene scene, const std::string& name_for_messages);
 
   Scene& scene() { return scene_; }
-  void read_text(const std::string& text);
   // What is as in the suggested scene was given by nobody (suggested.h).
+  void read_text(const std::string& text, const Scene* suggested = nullptr);
   void apply_settings(const std::vector<std::string>& settings, const Scene* suggested = nullptr);
   Scene finish() const;  // checks the scene as a whole
 
@@ -45,6 +45,7 @@ class SceneBuilder {
   void need_camera(const KeyAddress& address, const std::string& where);
   void need_stereo(const KeyAddress& address);
   void refuse_exclusions() const;
+  void make_way(const Scene& before, const Scene* suggested);
   void center_camera();
   std::string where_in_file(const toml::source_region& region) const;
 

@@ -35,7 +35,7 @@ void resolve_paths(Scene& scene, const std::filesystem::path& folder) {
 
 Scene read_file(SceneBuilder builder, const std::filesystem::path& path,
                 const std::vector<std::string>& settings, const Scene* suggested) {
-  builder.read_text(read_text_file(path));
+  builder.read_text(read_text_file(path), suggested);
   resolve_paths(builder.scene(), path.parent_path());
   builder.apply_settings(settings, suggested);
   Scene scene = builder.finish();

@@ -168,12 +168,10 @@ Keys time_keys() {
           {"The lowest number of a pattern. Numbers without a file are left out.", "", "0"}),
       key("time.last", integer(0, largest), &SequenceSettings::last,
           {"The highest number of a pattern.", "", "9999"}),
-      key<SequenceSettings, double>(
-          "time.index", number(), if_set(&SequenceSettings::index),
-          [](SequenceSettings& time, double value) { time.index = value; },
+      key("time.index", number(), &SequenceSettings::index,
           {"The moment drawn: a snapshot's number in a pattern, or its place in a list, from 0. "
            "2.25 is a quarter of the way from 2 to 3.",
-           "", "`0.0`"}),
+           "", "the first"}),
       key<SequenceSettings, Interpolation>(
           "time.interpolation",
           choice<Interpolation>({{"none", Interpolation::none},

@@ -237,8 +237,9 @@ void SnapshotSource::State::use_settings(const SequenceSettings& settings) {
 
 std::shared_ptr<const Snapshot> SnapshotSource::State::at_moment(const SequenceSettings& settings) {
   use_settings(settings);
-  if (last_ && last_index_ == settings.index) return last_;
-  SequencePlace place = find_place(list_, settings.index);
+  settings_.index = settings.index.value_or(list_.front().index);
+  if (last_ && last_index_ == settings_.index) return last_;
+  SequencePlace place = find_place(list_, *settings_.index);
   if (settings.interpolation == Interpolation::none) place.fraction = 0;
   const std::size_t last_needed = place.snapshot + (place.fraction > 0 ? 1 : 0);
   take_ahead(place.snapshot, last_needed);
@@ -253,7 +254,7 @@ std::shared_ptr<const Snapshot> SnapshotSource::State::at_moment(const SequenceS
   if (last_ && last_ != moment) moment->share_lasting_memory_of(*last_);
   last_ = std::move(moment);
   read_ahead(place);
-  last_index_ = settings.index;
+  last_index_ = settings_.index;
   return last_;
 }
 
@@ -294,9 +295,9 @@ void SnapshotSource::State::take_ahead(std::size_t needed_first, std::size_t nee
 
 // Not on the first frame: it may be the only one.
 void SnapshotSource::State::read_ahead(const SequencePlace& place) {
-  const bool is_film = last_index_ && *last_index_ != settings_.index;
+  const bool is_film = last_index_ && last_index_ != settings_.index;
   if (!is_film || !can_read_concurrently()) return;
-  const bool is_forward = settings_.index > *last_index_;
+  const bool is_forward = settings_.index > last_index_;
   const std::size_t edge = is_forward && place.fraction > 0 ? place.snapshot + 1 : place.snapshot;
   if (is_forward ? edge + 1 >= list_.size() : edge == 0) return;
   const std::size_t next = is_forward ? edge + 1 : edge - 1;

@@ -101,6 +101,24 @@ std::string content_of(const std::string& path) {
   return content;
 }
 
+// Of /proc/PID/stat from the third on: the second is the program's name in parentheses, which may
+// hold spaces and parentheses of its own. Empty where it cannot be read.
+std::string fields_of(pid_t process) {
+  const std::string fields = content_of("/proc/" + std::to_string(process) + "/stat");
+  const std::size_t name_end = fields.rfind(')');
+  return name_end == std::string::npos ? "" : fields.substr(name_end + 1);
+}
+
+// The field of that number; 0 where it is missing.
+std::uint64_t number_in(const std::string& fields, int field) {
+  std::istringstream rest(fields);
+  std::string skipped;
+  for (int before = 3; before < field; ++before)
+    rest >> skipped;
+  std::uint64_t number = 0;
+  return rest >> number ? number : 0;
+}
+
 }  // namespace
 
 std::optional<std::uint64_t> memory_left() {
@@ -123,18 +141,19 @@ std::optional<int> allowed_cores() {
   return std::max(1, CPU_COUNT(&set));
 }
 
-// The 22nd field of /proc/PID/stat; 0: cannot be read. The second is the program's name in
-// parentheses, which may hold spaces and parentheses of its own.
 std::uint64_t start_of_process(pid_t process) {
-  const std::string fields = content_of("/proc/" + std::to_string(process) + "/stat");
-  const std::size_t name_end = fields.rfind(')');
-  if (name_end == std::string::npos) return 0;
-  std::istringstream rest(fields.substr(name_end + 1));
-  std::string skipped;
-  for (int field = 3; field < 22; ++field)
-    rest >> skipped;
-  std::uint64_t start = 0;
-  return rest >> start ? start : 0;
+  constexpr int start = 22;
+  return number_in(fields_of(process), start);
+}
+
+// A first thread that has ended looks the same while others go on.
+bool is_only_number(pid_t process) {
+  constexpr int threads = 20;
+  const std::string fields = fields_of(process);
+  const std::size_t state = fields.find_first_not_of(' ');
+  const bool has_ended =
+      state != std::string::npos && (fields[state] == 'Z' || fields[state] == 'X');
+  return has_ended && number_in(fields, threads) <= 1;
 }
 
 std::string process_space() {

@@ -47,6 +47,10 @@ std::uint64_t start_of_process(pid_t) {
   return 0;
 }
 
+bool is_only_number(pid_t) {
+  return false;
+}
+
 std::string process_space() {
   return "";
 }

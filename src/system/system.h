@@ -23,6 +23,9 @@ std::optional<int> allowed_cores();
 // When a process began, in a unit of the system's own: another one of that number began at another
 // time.
 std::uint64_t start_of_process(pid_t process);
+// Whether it has ended and only its number is left, as long as its parent does not ask how it
+// ended; in containers often for ever.
+bool is_only_number(pid_t process);
 // The same for processes whose numbers are of one kind: those of a container, of a machine.
 std::string process_space();
 std::string machine_identity();

@@ -1,5 +1,8 @@
 // Files: how they are written, and changes while they are used.
+#include <signal.h>
 #include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 
@@ -7,6 +10,7 @@
 #include "common/mapped_file.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
+#include "system/system.h"
 #include "testing.h"
 
 namespace splotchcl::test {
@@ -96,6 +100,23 @@ class UnfinishedFiles : public ::testing::Test {
 
 TEST_F(UnfinishedFiles, OfProcessesThatHaveEndedAreRemovedByTheNextOne) {
   EXPECT_FALSE(stays(left("a.png", no_process, "1", own_.machine)));
+}
+
+// Nobody has asked how it ended, as nobody does in many containers.
+TEST_F(UnfinishedFiles, OfProcessesOfWhichOnlyTheNumberIsLeftAreRemoved) {
+  if (own_.start == 0) GTEST_SKIP() << "the system does not tell how a process is";
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) ::pause();
+  const std::string number = std::to_string(child);
+  const std::string start = std::to_string(of_system::start_of_process(child));
+  const fs::path file = left("a.png", number.c_str(), start, own_.machine);
+  EXPECT_TRUE(stays(file));
+  ::kill(child, SIGKILL);
+  siginfo_t ended = {};
+  ASSERT_EQ(::waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOWAIT), 0);
+  EXPECT_FALSE(stays(file));
+  ::waitpid(child, nullptr, 0);
 }
 
 TEST_F(UnfinishedFiles, OfEarlierVersionsAreRemovedToo) {

@@ -281,8 +281,40 @@ TEST(SuggestCamera, SeesATubeOfTwoDensitiesFromItsSideAndWhole) {
   const Vec3 view = camera.look_at - camera.position;
   EXPECT_NEAR(view.a[2], 0, 0.01);
   EXPECT_EQ(camera.sky.a[2], 0);
-  EXPECT_NEAR(camera.look_at.a[2], 5, 0.2);
+  EXPECT_NEAR(camera.look_at.a[2], 5, 0.01);
   EXPECT_GT(half_width(camera), 5);
+}
+
+ImageSettings picture_of(int width, int height) {
+  ImageSettings image;
+  image.width = width;
+  image.height = height;
+  return image;
+}
+
+// Half the height of what the camera sees in that picture at its look-at point.
+double half_height(const Camera& camera, const ImageSettings& image) {
+  return half_width(camera) * image.height / image.width;
+}
+
+TEST(SuggestCamera, ShowsTheWholeOfARoundObjectInAPictureOfAnyShape) {
+  const MemorySnapshot snapshot = particles_at(0, ball(5000, 0, 2));
+  const double half = half_width(*suggest_scene(snapshot).camera);
+  const ImageSettings wide = picture_of(1600, 400), tall = picture_of(400, 1600);
+  const Scene in_wide = suggest_scene(snapshot, Look::press, wide);
+  EXPECT_NEAR(half_height(*in_wide.camera, wide), half, 0.1 * half);
+  EXPECT_NEAR(half_width(*suggest_scene(snapshot, Look::press, tall).camera), half, 0.1 * half);
+  EXPECT_EQ(in_wide.image.width, 1024);
+}
+
+TEST(SuggestCamera, FillsAPictureOfAnyShapeWithABox) {
+  MemorySnapshot snapshot = particles_at(0, cube(5000, 100));
+  snapshot.set_box_size(100);
+  const double half = half_width(*suggest_scene(snapshot).camera);
+  const ImageSettings wide = picture_of(1600, 400), tall = picture_of(400, 1600);
+  EXPECT_EQ(half_width(*suggest_scene(snapshot, Look::press, wide).camera), half);
+  EXPECT_NEAR(half_height(*suggest_scene(snapshot, Look::press, tall).camera, tall), half,
+              0.01 * half);
 }
 
 TEST(SuggestCamera, FramesAPairOfSmallObjectsClosely) {

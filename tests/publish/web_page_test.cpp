@@ -1,5 +1,6 @@
 #include "publish/web_page.h"
 
+#include "finish/tone.h"
 #include "frames/random_frames.h"
 #include "testing.h"
 
@@ -14,6 +15,39 @@ std::string page_called(const std::string& title) {
   page.title = title;
   page.unit = "kpc";
   return make_web_page(page, frame, pack(light_splats(frame)));
+}
+
+// The number behind "least": what splats end at, in units of white.
+double least_of(const FinishSettings& finish, double gamma) {
+  Frame frame = SceneMaker(1).make();
+  frame.components.resize(1);
+  frame.components.front().absorption = {Absorption::Kind::none, 0};
+  WebPage page;
+  page.finish = finish;
+  page.gamma = gamma;
+  const std::string text = make_web_page(page, frame, pack(light_splats(frame)));
+  const std::string name = "\"least\":";
+  return std::stod(text.substr(text.find(name) + name.size()));
+}
+
+TEST(WebPage, EndsSplatsWhereTheyShowLessThanAStep) {
+  for (const ToneCurve curve : {ToneCurve::linear, ToneCurve::asinh, ToneCurve::filmic}) {
+    for (const double white : {1.0, 4.0}) {
+      for (const double contrast : {1.0, 1.5}) {
+        FinishSettings finish;
+        finish.tone = curve;
+        finish.white = white;
+        finish.contrast = contrast;
+        const double gamma = 2.2, least = least_of(finish, gamma);
+        Image image(1, 1);
+        std::fill_n(image.at(0, 0), 3, static_cast<float>(least * white));
+        adjust_light(image, finish, gamma);
+        const double shown = 255 * std::pow(image.at(0, 0)[0], 1 / gamma);
+        EXPECT_LE(shown, 0.51) << least;
+        EXPECT_LE(least, 2e-5);
+      }
+    }
+  }
 }
 
 TEST(WebPage, LoadsNothing) {

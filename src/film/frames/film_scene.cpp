@@ -86,13 +86,18 @@ std::string note_of(const Scene& scene, std::size_t snapshots) {
                      scene.path.orbit->degrees, *scene.movie.frames);
 }
 
+// Scenes that were opened have one, where they have a sequence.
+double index_in(const Scene& scene) {
+  return scene.time.index.value_or(0);
+}
+
 // In a periodic box the box is shown around the target from the start: nothing comes in at its
 // faces while the camera goes there.
 void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
   using namespace boost::qvm;
   if (!filled_box(scene, snapshot)) return;
   scene.periodic.wrap = true;
-  std::vector<double> indices = {scene.time.index};
+  std::vector<double> indices = {index_in(scene)};
   if (!scene.path.keyframes.empty()) indices.push_back(list_sequence(scene.time).front().index);
   const Vec3 shift = find_followed(scene, indices).center(indices.back()) - scene.camera->look_at;
   scene.camera->look_at += shift;
@@ -111,8 +116,7 @@ std::vector<Target> targets_of_course(const Scene& scene) {
   for (std::size_t k = 0; k < count; ++k) {
     Scene at = scene;
     at.time.index = list[count == 1 ? 0 : k * (list.size() - 1) / (count - 1)].index;
-    targets.push_back(suggest_target(*snapshots.at(at), types_of(at.components), at.image.width,
-                                     at.image.height));
+    targets.push_back(suggest_target(*snapshots.at(at), types_of(at.components), at.image));
     if (targets.back().shape == Target::Shape::box) return {};
   }
   return targets;
@@ -140,7 +144,7 @@ Target target_around(const std::vector<Target>& targets) {
 double part_of_view(const Scene& scene) {
   const CameraFrame shown = make_camera_frame(*scene.camera, scene.image.width, scene.image.height);
   const double side = std::min(scene.image.width, scene.image.height) / shown.pixels_per_length;
-  return scene.path.follow->size * find_followed(scene, {scene.time.index}).radius() / side;
+  return scene.path.follow->size * find_followed(scene, {index_in(scene)}).radius() / side;
 }
 
 // Matter that the camera meets on its way around the target would lie over it as a veil.
@@ -157,22 +161,15 @@ void let_matter_fade_before_target(double part_of_view, Scene& scene) {
 // time, from wherever an orbit leads it. Periodic boxes stay as they are. Throws as readers do.
 void show_whole_course(Scene& scene) {
   const std::vector<Target> targets = targets_of_course(scene);
-  if (!targets.empty()) scene.camera = suggest_camera(target_around(targets));
+  if (!targets.empty()) scene.camera = suggest_camera(target_around(targets), scene.image);
 }
 
-// Brings a camera that looks in all directions, and was chosen from the data as if it looked in
-// one, so near that matter is around it. Where it has no target to come close to, what does fades,
-// so that clouds around the camera, of which there are thousands there, need not be looked through.
-// Other cameras stay.
-void stand_amid_matter(Camera& camera, bool has_target) {
-  // What a picture of 45 degrees shows from afar is half as wide as the way to it, or wider.
-  constexpr double part_of_way = 0.2;
-  if (!is_wide_angle(camera.projection)) return;
-  const Vec3 way = camera.position - camera.look_at;
-  camera.position = Vec3(camera.look_at + part_of_way * way);
-  if (has_target || camera.near_limit || camera.fade.near_length > 0) return;
-  camera.fade.near_length = part_of_way * boost::qvm::mag(way);
-  camera.through_clouds = false;
+// Matter around a camera that was chosen to stand amid it fades. Not where the camera goes: what it
+// goes to would fade as well.
+void let_no_matter_fade(const Camera& suggested, Camera& camera) {
+  if (camera.fade.near_length != suggested.fade.near_length || suggested.through_clouds) return;
+  camera.fade.near_length = 0;
+  camera.through_clouds = true;
 }
 
 // Gives a scene that says nothing of a film one that suits its data: an orbit around what a
@@ -293,8 +290,8 @@ struct SuggestedView {
 };
 
 SuggestedView suggested_view(const SceneWithSnapshot& opened) {
-  if (!opened.suggested || !opened.suggested->camera || !opened.scene.camera) return {};
-  const Camera &now = *opened.scene.camera, &suggested = *opened.suggested->camera;
+  if (!opened.suggested_camera || !opened.scene.camera) return {};
+  const Camera &now = *opened.scene.camera, &suggested = *opened.suggested_camera;
   SuggestedView left;
   left.place = now.position == suggested.position && now.look_at == suggested.look_at &&
                now.through_clouds == suggested.through_clouds;
@@ -321,11 +318,18 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   }
   if (view.place && view.zoom && scene_.time.is_set() && !target.is_approached)
     show_whole_course(scene_);
-  if (view.place) stand_amid_matter(*scene_.camera, !target.name.empty());
+  if (view.place && !target.name.empty())
+    let_no_matter_fade(*opened.suggested_camera, *scene_.camera);
   // A scene file that says how long its film is says what it is, too.
   if (opened.suggested || !target.name.empty() || !scene_.movie.frames) {
     const std::string note = suggest_film(target, *snapshot_at(scene_), scene_);
     if (!note.empty()) notes_.push_back(note);
+  }
+  if (!scene_.path.is_set() && scene_.movie.frames > 1) {
+    notes_.push_back(fmt::format(
+        "no path: all {} frames are alike; path.orbit.degrees=360 turns the camera, and "
+        "without movie.frames a path is chosen",
+        *scene_.movie.frames));
   }
   scene_ = with_simple_path(std::move(scene_), notes_);
   path_.emplace(scene_, notes_, find_followed);
@@ -359,7 +363,7 @@ void FilmScene::check_moments() const {
   const std::vector<ListedSnapshot> list = list_sequence(scene_.time);
   for (int frame = 0; frame < path_->frame_count(); ++frame) {
     try {
-      find_place(list, scene_at(frame).time.index);
+      find_place(list, index_in(scene_at(frame)));
     } catch (const UsageError& error) {
       throw UsageError(fmt::format("frame {} of the path: {}", frame, error.what()));
     }

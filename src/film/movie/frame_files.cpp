@@ -52,9 +52,10 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 [[noreturn]] void refuse_range(const std::string& text) {
-  throw UsageError(fmt::format(
-      "--frames: '{}' is not FIRST:END:STEP, whole numbers such as 100:200:2 for 100, 102, ... 198",
-      text));
+  throw UsageError(
+      fmt::format("--frames: found '{}', expected FIRST:END:STEP, whole numbers such as 100:200:2 "
+                  "for 100, 102, ... 198",
+                  text));
 }
 
 int part_of_range(const std::string& text, const std::string& part, int absent) {

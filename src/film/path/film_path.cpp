@@ -91,7 +91,7 @@ FrameSettings::FrameSettings(const Scene& scene, const PathTable* table, int fra
                              const FindFollowed& find, std::vector<std::string>& notes)
     : table_(table),
       frames_(frames),
-      scene_index_(scene.time.index),
+      scene_index_(scene.time.index.value_or(0)),
       camera_(scene.camera.value_or(Camera())),
       keyframes_(scene) {
   course_.emplace(scene, frames, find_way(scene, find),

@@ -307,8 +307,7 @@ class Picture {
       lower: splats.lower, upper: splats.upper, sigma_range: splats.sigma, light_range: splats.light,
       depth_range: splats.depth, white,
       size: [width, height], footprint2: footprint * footprint,
-      // Where a splat ends: many lie over a pixel.
-      least: 2e-5 * white,
+      least: finish.least * white,
     });
     this.pass(this.resolves, this.light, {background, source}, {sums: this.sums});
     if (finish.bloom > 0) {

@@ -283,7 +283,7 @@ TEST(SuggestedFilm, OrbitsAroundWhatItFollows) {
     write_ball(folder / ("snapshot_" + std::to_string(i)), 50 + 5 * i);
   const FilmScene film(folder / "snapshot_%d", {"movie.frames=5"}, nullptr, {"densest", false});
   for (int frame = 0; frame < 5; ++frame) {
-    const Vec3 place = {{50.0 + 5 * film.scene_at(frame).time.index, 50, 50}};
+    const Vec3 place = {{50.0 + 5 * *film.scene_at(frame).time.index, 50, 50}};
     EXPECT_NEAR(mag(film.scene_at(frame).camera->look_at - place), 0, 1) << frame;
   }
   EXPECT_GT(mag(film.scene_at(4).camera->position - film.scene_at(0).camera->position), 1);

@@ -25,7 +25,7 @@ TEST(SelectFrames, CountsFromTheFirstInStepsAndLeavesOutTheEnd) {
 
 TEST(SelectFrames, RefusesWhatIsNoRangeOfTheFilm) {
   for (const std::string text : {"a", "1:2:3:4", "-1:3", "1:3:0", "1.5", "1,3", "99999999999"})
-    EXPECT_THAT(refusal([&] { select_frames(text, 10); }), HasSubstr("is not FIRST:END:STEP"));
+    EXPECT_THAT(refusal([&] { select_frames(text, 10); }), HasSubstr("expected FIRST:END:STEP"));
   for (const std::string text : {"3:3", "5:4", "0:11", "10"})
     EXPECT_THAT(refusal([&] { select_frames(text, 10); }), HasSubstr("frames from 0 to 9"));
 }
