@@ -226,8 +226,8 @@ struct Console::Log {
 // Tells from time to time what is being done, also while nothing calls the console.
 class Console::Reporter {
  public:
-  explicit Reporter(spdlog::logger& logger)
-      : logger_(logger), thread_([this] { report_until_ended(); }) {}
+  Reporter(spdlog::logger& logger, std::string what)
+      : logger_(logger), what_(std::move(what)), thread_([this] { report_until_ended(); }) {}
   ~Reporter() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -324,7 +324,7 @@ void Console::show_status(const std::string& text) {
 void Console::tell_now_and_then(const std::string& text) {
   if (!reporter_ && !has_no_thread_) {
     try {
-      reporter_ = std::make_unique<Reporter>(log_->logger);
+      reporter_ = std::make_unique<Reporter>(log_->logger, text);
     } catch (const std::system_error&) {
       has_no_thread_ = true;  // nothing that is done needs the report
     }
