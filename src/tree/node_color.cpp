@@ -14,17 +14,17 @@ struct SampledColors {
   float unseen2 = 0;  // squared, of the ways to members beyond all samples
 };
 
-// Squared, of the ways from the outermost samples to the outermost members.
+// Squared, of the ways from the outermost samples, of these values, to the outermost members.
 template <class Way>
-float unseen2(const SampledField& field, const Way& way) {
-  const auto all = field.all_ordered();
-  const auto [least, largest] = std::minmax_element(all.begin(), all.end());
+float unseen2(const SampledField& field, const std::array<std::uint32_t, sampled_members>& values,
+              const Way& way) {
+  const auto [least, largest] = std::minmax_element(values.begin(), values.end());
   const float below = way(*least) - way(field.least_ordered());
   const float above = way(field.largest_ordered()) - way(*largest);
   return below * below + above * above;
 }
 
-SampledColors sampled_colors(const TreePart& part, const SampledField* sampled) {
+SampledColors sampled_colors(const TreePart& part, const SampledField* sampled, bool are_all) {
   SampledColors colors;
   colors.steps.fill(part.palette->step(0));
   colors.factors.fill(1);
@@ -37,15 +37,17 @@ SampledColors sampled_colors(const TreePart& part, const SampledField* sampled) 
     const auto way = [&part](std::uint32_t ordered) {
       return part.palette->step((*part.color_places)(ordered)).way;
     };
-    ways2 = unseen2(field, way);
+    if (!are_all) ways2 = unseen2(field, values, way);
   }
   if (part.intensities) {
     const SampledField& field = sampled[part.part->intensity];
     const auto values = field.all_ordered();
     for (std::size_t k = 0; k < sampled_members; ++k)
       colors.factors[k] = (*part.intensities)(values[k]);
-    largest_factor = (*part.intensities)(field.largest_ordered());
-    colors.unseen2 = unseen2(field, *part.intensities);
+    if (!are_all) {
+      largest_factor = (*part.intensities)(field.largest_ordered());
+      colors.unseen2 = unseen2(field, values, *part.intensities);
+    }
   }
   colors.unseen2 += largest_factor * largest_factor * ways2;
   return colors;
@@ -76,9 +78,9 @@ NodeColor node_color(const TreePart& part, const TreeLevel& level, std::uint64_t
     color.mean = part.palette->color(0);
     return color;
   }
-  const SampledColors colors =
-      sampled_colors(part, level.fields + node * part.tree().fields.size());
   const std::uint8_t members = level.nodes[node].all_sampled();
+  const SampledColors colors =
+      sampled_colors(part, level.fields + node * part.tree().fields.size(), members > 0);
   const std::size_t count =
       members > 0 ? std::min<std::size_t>(members, sampled_members) : sampled_members;
   const float share = 1 / static_cast<float>(count);
@@ -95,7 +97,7 @@ NodeColor node_color(const TreePart& part, const TreeLevel& level, std::uint64_t
     const float spread = spread_around(colors, k);
     variance += variance_of_spread * spread * spread * share * share;
   }
-  if (members == 0) variance += variance_of_unseen * colors.unseen2 * share * share;
+  variance += variance_of_unseen * colors.unseen2 * share * share;
   color.variance = static_cast<double>(variance);
   for (std::size_t c = 0; c < 3; ++c) {
     const float spread2 = std::max(0.0f, squares[c] - color.mean[c] * color.mean[c]);

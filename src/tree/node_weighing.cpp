@@ -22,8 +22,8 @@ double square(double x) {
 
 // A node's shape in pixels.
 struct ShownShape {
-  // Variances of members' own Gaussians, of those with most of the peaks, and of their places.
-  double size2 = 0, narrow2 = 0, place2 = 0;
+  // Variances of the Gaussians that most of the members' peaks have, and of their places.
+  double narrow2 = 0, place2 = 0;
   double uneven = 0, third = 0, fourth = 0;
 };
 
@@ -31,8 +31,8 @@ ShownShape shown_shape(const TreePart& part, const TreeNode& node, double cell,
                        double pixels_per_length) {
   const double scale = pixels_per_length * part.tree().side;
   ShownShape shape;
-  shape.size2 = square(length_of_bits(node.size) * part.deviation_per_h * scale);
-  shape.narrow2 = shape.size2 * square(narrownesses[node.narrow()]);
+  shape.narrow2 = square(length_of_bits(node.size) * narrownesses[node.narrow()] *
+                         part.deviation_per_h * scale);
   shape.place2 = square(length_of_bits(node.deviation) * scale);
   shape.uneven = square(rough_of_bits(node.uneven) * cell * scale);
   const double root_of_third = rough_of_bits(node.third) * cell * scale;
