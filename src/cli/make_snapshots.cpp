@@ -12,11 +12,6 @@
 namespace splotchcl::cli {
 namespace {
 
-bool is_hdf5_name(const std::filesystem::path& file) {
-  const std::string ending = lower_ending(file);
-  return ending == ".hdf5" || ending == ".h5";
-}
-
 int generate_large_universe(const GenerateOptions& options, Console& console) {
   const Stopwatch stopwatch;
   const WrittenUniverse made = write_large_universe(
@@ -32,7 +27,7 @@ int generate_large_universe(const GenerateOptions& options, Console& console) {
 
 int run_generate(const GenerateOptions& options, Console& console) {
   check_output_path(options.output);
-  if (is_hdf5_name(options.output)) {
+  if (is_hdf5_ending(lower_ending(options.output))) {
     throw UsageError(fmt::format(
         "--output: found {}, expected a name that does not end as HDF5 does: the snapshot is in "
         "Gadget's format 2",
@@ -80,7 +75,7 @@ int run_galaxy(const GalaxyOptions& options, Console& console) {
     if (options.rotation_curve) inputs.insert(*options.rotation_curve);
     return inputs;
   });
-  if (!is_hdf5_name(options.output)) {
+  if (!is_hdf5_ending(lower_ending(options.output))) {
     throw UsageError(fmt::format(
         "--output: found {}, expected a name that ends in .hdf5 or .h5: the snapshot's format",
         options.output.string()));

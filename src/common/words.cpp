@@ -31,6 +31,10 @@ std::string lower_ending(const std::filesystem::path& path) {
   return lower_case(path.extension().string());
 }
 
+bool is_hdf5_ending(const std::string& lower_ending) {
+  return lower_ending == ".hdf5" || lower_ending == ".h5";
+}
+
 std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }

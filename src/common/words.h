@@ -17,6 +17,8 @@ std::string lower_case(std::string text);
 
 // A path's ending in lower case: ".toml"; empty where it has none.
 std::string lower_ending(const std::filesystem::path& path);
+// Of an HDF5 file.
+bool is_hdf5_ending(const std::string& lower_ending);
 
 // Where a file lies, as a path that can be opened: of a name alone ".".
 std::filesystem::path folder_of(const std::filesystem::path& file);

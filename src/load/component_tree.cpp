@@ -28,6 +28,15 @@ const std::optional<Trees>& known_trees(const Snapshot& snapshot) {
       trees_key, [&snapshot] { return read_trees(snapshot.info()); });
 }
 
+// Null where there is none of the type.
+std::shared_ptr<const TreeOfType> known_tree(const Snapshot& snapshot, int type) {
+  const std::optional<Trees>& trees = known_trees(snapshot);
+  if (!trees) return nullptr;
+  const auto found = std::find_if(trees->begin(), trees->end(),
+                                  [type](const auto& known) { return known->type == type; });
+  return found == trees->end() ? nullptr : *found;
+}
+
 // Among the tree's; nothing where it is not there, -1 where the scene names none.
 std::optional<int> field_of(const TreeOfType& tree, const std::string& name) {
   if (name.empty()) return -1;
@@ -38,6 +47,11 @@ std::optional<int> field_of(const TreeOfType& tree, const std::string& name) {
       });
   if (found == tree.fields.end()) return std::nullopt;
   return static_cast<int>(found - tree.fields.begin());
+}
+
+// A number as field_of() gives it.
+Column field_in(const StoredParticles& particles, int number) {
+  return number < 0 ? Column() : particles.fields[static_cast<std::size_t>(number)];
 }
 
 // Loose particles of all parts; none where they stay in the snapshot.
@@ -52,9 +66,6 @@ Particles particles_in_order(const std::vector<TreeOfComponent::Part>& parts, co
       columns.push_back({column_of(part), static_cast<std::size_t>(part.tree->order_count)});
     return joined(columns, width, false);
   };
-  const auto field = [](const Part& part, int number) {
-    return number < 0 ? Column() : part.tree->particles->fields[static_cast<std::size_t>(number)];
-  };
   Particles particles;
   for (const Part& part : parts)
     particles.count += static_cast<std::size_t>(part.tree->order_count);
@@ -63,22 +74,17 @@ Particles particles_in_order(const std::vector<TreeOfComponent::Part>& parts, co
   particles.smoothing_length =
       all(1, [](const Part& part) { return part.tree->particles->smoothing_length; });
   particles.weight = all(1, [](const Part& part) { return part.tree->particles->weight; });
-  particles.color = all(1, [&](const Part& part) { return field(part, part.color); });
-  particles.intensity = all(1, [&](const Part& part) { return field(part, part.intensity); });
+  particles.color =
+      all(1, [](const Part& part) { return field_in(*part.tree->particles, part.color); });
+  particles.intensity =
+      all(1, [](const Part& part) { return field_in(*part.tree->particles, part.intensity); });
   return particles;
-}
-
-const TreeOfType* tree_of(const Snapshot& snapshot, int type) {
-  const std::optional<Trees>& trees = known_trees(snapshot);
-  if (!trees) return nullptr;
-  const auto found = std::find_if(trees->begin(), trees->end(),
-                                  [type](const auto& known) { return known->type == type; });
-  return found == trees->end() ? nullptr : found->get();
 }
 
 // Null where all particles have to be looked at; ranks do that together.
 const TreeOfType* tree_with_sample(const Snapshot& snapshot, int type) {
-  const TreeOfType* const tree = has_shared_passes(snapshot) ? nullptr : tree_of(snapshot, type);
+  const TreeOfType* const tree =
+      has_shared_passes(snapshot) ? nullptr : known_tree(snapshot, type).get();
   if (tree == nullptr || !tree->sample) return nullptr;
   const bool is_of_use =
       tree->sample->stride == least_sample_stride(static_cast<std::size_t>(tree->count)) &&
@@ -91,7 +97,7 @@ std::optional<Column> kept_values(const TreeOfType& tree, const std::string& fie
   const ParticleSample& sample = *tree.sample;
   if (field == "position") return sample.particles.position;
   if (const std::optional<int> number = field_of(tree, field))
-    return sample.particles.fields[static_cast<std::size_t>(*number)];
+    return field_in(sample.particles, *number);
   const auto& names = sample.other_names;
   const auto other = std::find(names.begin(), names.end(), field);
   if (other == names.end()) return std::nullopt;
@@ -105,17 +111,14 @@ void take_sample(const Snapshot& snapshot, TreeOfComponent& tree) {
   if (tree_with_sample(snapshot, part.tree->type) == nullptr) return;
   const ParticleSample& sample = *part.tree->sample;
   const StoredParticles& stored = sample.particles;
-  const auto field = [&stored](int number) {
-    return number < 0 ? Column() : stored.fields[static_cast<std::size_t>(number)];
-  };
   Particles& particles = tree.sample;
   particles.count = stored.smoothing_length.size();
   particles.origin = sample.origin;
   particles.position = stored.position;
   particles.smoothing_length = stored.smoothing_length;
   particles.weight = stored.weight;
-  particles.color = field(part.color);
-  particles.intensity = field(part.intensity);
+  particles.color = field_in(stored, part.color);
+  particles.intensity = field_in(stored, part.intensity);
   tree.sample_stride = sample.stride;
 }
 
@@ -136,22 +139,20 @@ std::shared_ptr<const TreeOfComponent> component_tree(const Component& component
   const bool is_in_place = !component.placement.moves() && !component.size_fixed &&
                            component.color_vector.empty() &&
                            canonical_field_name(component.size_field) == "smoothing_length";
-  if (!is_in_place || !known_trees(snapshot)) return nullptr;
+  if (!is_in_place) return nullptr;
   auto tree = std::make_shared<TreeOfComponent>();
   std::uint64_t first = 0, first_in_order = 0;
   for (const int type : types) {
-    const Trees& trees = *known_trees(snapshot);
-    const auto found = std::find_if(trees.begin(), trees.end(),
-                                    [type](const auto& known) { return known->type == type; });
-    if (found == trees.end() || (*found)->weight != weight) return nullptr;
-    const std::optional<int> color = field_of(**found, component.color.field);
-    const std::optional<int> intensity = field_of(**found, component.intensity.field);
+    const auto known = known_tree(snapshot, type);
+    if (!known || known->weight != weight) return nullptr;
+    const std::optional<int> color = field_of(*known, component.color.field);
+    const std::optional<int> intensity = field_of(*known, component.intensity.field);
     if (!color || !intensity) return nullptr;
-    const bool has_order = (*found)->order != nullptr || (*found)->order_count == 0;
-    if (!has_order && !(*found)->particles) return nullptr;
-    tree->parts.push_back({*found, first, *color, *intensity, first_in_order});
-    first += (*found)->count;
-    first_in_order += (*found)->order_count;
+    const bool has_order = known->order != nullptr || known->order_count == 0;
+    if (!has_order && !known->particles) return nullptr;
+    tree->parts.push_back({known, first, *color, *intensity, first_in_order});
+    first += known->count;
+    first_in_order += known->order_count;
   }
   tree->in_order = particles_in_order(tree->parts, snapshot.position_origin());
   take_sample(snapshot, *tree);

@@ -130,10 +130,11 @@ bool is_sampled(const FieldMap& map) {
 
 // Of a component's color or intensity; `all` reads those of all particles.
 ValuesToSample values_to_sample(ComponentReader& reader, WeightModel weight, const FieldMap& map,
-                                Column Particles::*column, const std::function<Column()>& all) {
+                                Column Particles::*column,
+                                const Column& (ComponentReader::*all)()) {
   const auto tree = is_sampled(map) ? reader.tree(weight) : nullptr;
   if (!tree || tree->sample.count == 0) {
-    const Column values = all();
+    const Column values = (reader.*all)();
     return {values, 1, reader.fields().pass()};
   }
   return {tree->sample.*column, static_cast<std::size_t>(tree->sample_stride),
@@ -290,11 +291,11 @@ DecidedComponent FrameLoader::decide_component(Part& part, const Camera& camera,
   if (!component.reference_column) read(part, decided.weight, camera.look_at);
   const auto color = [&] {
     return values_to_sample(reader, decided.weight, component.color, &Particles::color,
-                            [&reader] { return reader.color(); });
+                            &ComponentReader::color);
   };
   const auto intensity = [&] {
     return values_to_sample(reader, decided.weight, component.intensity, &Particles::intensity,
-                            [&reader] { return reader.intensity(); });
+                            &ComponentReader::intensity);
   };
   decided.color = decide_map(component.color, color, reader.fields(), "color");
   decided.intensity = decide_map(component.intensity, intensity, reader.fields(), "intensity");

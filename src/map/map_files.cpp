@@ -66,9 +66,6 @@ namespace {
 bool is_fits(const std::string& ending) {
   return ending == ".fits" || ending == ".fit";
 }
-bool is_hdf5(const std::string& ending) {
-  return ending == ".hdf5" || ending == ".h5";
-}
 
 bool is_text_table(const std::string& ending) {
   return ending == ".csv" || ending == ".ecsv";
@@ -76,7 +73,7 @@ bool is_text_table(const std::string& ending) {
 
 bool is_figure(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
-  return !(is_text_table(ending) || is_fits(ending) || is_hdf5(ending) || ending == ".npy" ||
+  return !(is_text_table(ending) || is_fits(ending) || is_hdf5_ending(ending) || ending == ".npy" ||
            ending == ".vdb" || ending == ".exr");
 }
 
@@ -207,7 +204,7 @@ void check_map_output(const std::filesystem::path& path, const Scene& scene,
 
 void check_map_path(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
-  if (is_fits(ending) || is_hdf5(ending) || is_text_table(ending) || ending == ".npy" ||
+  if (is_fits(ending) || is_hdf5_ending(ending) || is_text_table(ending) || ending == ".npy" ||
       ending == ".vdb" || ending == ".pdf") {
     check_output_path(path);
   } else if (ending == ".tif" || ending == ".tiff" || ending == ".hdr") {
@@ -225,7 +222,7 @@ std::vector<std::string> write_map(const std::filesystem::path& path, const Map&
   const std::string ending = lower_ending(path);
   if (is_fits(ending)) {
     write_bytes(path, encode_fits(path, map, snapshot, metadata));
-  } else if (is_hdf5(ending)) {
+  } else if (is_hdf5_ending(ending)) {
     UnfinishedFile file(path);
     write_hdf5(file.temporary_path(), path, map, snapshot, metadata);
     file.finish();

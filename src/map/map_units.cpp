@@ -192,16 +192,6 @@ NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuanti
   return data.field(settings.quantity);
 }
 
-// Whether a unit is known but for the snapshot's scale factor or Hubble parameter in it.
-bool lacks_factors(const std::string& name) {
-  try {
-    parse_unit(name, UnitFactors{1, 1}, "");
-    return true;
-  } catch (const UsageError&) {
-    return false;
-  }
-}
-
 [[noreturn]] void refuse_unknown(const std::string& wanted, const NamedUnits& found) {
   const bool is_count = found.name.rfind("particles", 0) == 0;
   if (is_count) {
@@ -213,7 +203,7 @@ bool lacks_factors(const std::string& name) {
       "key map.unit: found \"{}\", but the map is in {}, since the snapshot does not say {}, "
       "expected them; set map.length_unit, map.mass_unit and map.velocity_unit, as far as the "
       "quantity needs them",
-      wanted, found.name, lacks_factors(found.name) ? "the numbers for a and h" : "its units"));
+      wanted, found.name, is_unit(found.name) ? "the numbers for a and h" : "its units"));
 }
 
 [[noreturn]] void refuse_unknown_length(const std::string& found, const NamedUnits& length,

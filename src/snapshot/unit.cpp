@@ -246,6 +246,15 @@ Unit parse_unit(const std::string& text, const UnitFactors& factors, const std::
   return Parser(text, factors, what).parse();
 }
 
+bool is_unit(const std::string& text) {
+  try {
+    parse_unit(text, UnitFactors{1, 1}, "");
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
 namespace {
 
 std::optional<Unit> known_unit(const std::string& text, const UnitFactors& factors) {

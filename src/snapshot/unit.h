@@ -32,6 +32,8 @@ std::size_t end_of_number(const std::string& text, std::size_t first = 0);
 // "(km/s)^2", "4Mpc". A slash divides by what follows it next. `what` begins the message of the
 // UsageError for a text that is none, or that needs a or h where they are not known.
 Unit parse_unit(const std::string& text, const UnitFactors& factors, const std::string& what);
+// Whether it is one where a and h are known.
+bool is_unit(const std::string& text);
 
 // What numbers in the unit `from` have to be multiplied by to be in the unit `to`. 1 where nothing
 // tells them apart: one of them is not said, neither is known, or both are mere numbers. None where

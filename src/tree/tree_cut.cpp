@@ -74,10 +74,10 @@ struct Sums {
         alike(crop.width, crop.height),
         light(crop.width, crop.height) {}
 
-  void add(const WeighedNode& node) {
+  void add(const WeighedNode& node, bool is_drawn) {
     errors.at(node.scale, node.cell) += variance_of(node, errors);
     add_light(node, light);
-    if (!(node.largest2 > 0) || node.is_beside) return;
+    if (!is_drawn || !(node.largest2 > 0) || node.is_beside) return;
     const double pixels = alike.pixels(node.scale);
     alike.at(node.scale, node.cell) += static_cast<double>(node.error2) /
                                        std::sqrt(static_cast<double>(node.largest2)) /
@@ -94,7 +94,7 @@ struct Sums {
   }
 
   ErrorCells errors;  // variances of a pixel
-  ErrorCells alike;   // of a pixel, if all erred alike
+  ErrorCells alike;   // of a pixel, of drawn ones if all erred alike
   ErrorCells light;
 };
 
@@ -182,7 +182,7 @@ class Cutter {
         const WeighedNode& node = walk.levels[level].weighed[walk.reached[r]];
         const bool is_kept = node.fate == NodeFate::weighed && limits_.keeps(node, sums_.errors);
         if (is_kept) {
-          own.add(node);
+          own.add(node, draws_);
         } else if (node.fate == NodeFate::weighed && node.children == 0) {
           Sums::add_light(node, own.light);  // of its particles
         }

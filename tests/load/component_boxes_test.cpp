@@ -5,7 +5,6 @@
 
 #include "index/snapshot_index.h"
 #include "load/particles.h"
-#include "splotchcl/generate.h"
 #include "splotchcl/snapshot_file.h"
 #include "testing.h"
 
@@ -15,9 +14,7 @@ namespace {
 class ComponentBoxes : public ::testing::Test {
  protected:
   void SetUp() override {
-    GenerateSettings settings;
-    settings.particles = 30000;
-    write_gadget2(folder_ / "u", generate_universe(settings));
+    write_universe(folder_ / "u", 30000);
     snapshot_ = open_snapshot(folder_ / "u");
     SnapshotIndex::make(*snapshot_, {}).write(snapshot_->info());
   }

@@ -1,9 +1,6 @@
 // What follows from a sample of a snapshot's particles is found in the sample that a tree keeps.
-#include <chrono>
-
 #include "load/component_tree.h"
 #include "load/particles.h"
-#include "splotchcl/generate.h"
 #include "splotchcl/snapshot_file.h"
 #include "testing.h"
 
@@ -13,9 +10,7 @@ namespace {
 class KeptSample : public ::testing::Test {
  protected:
   void SetUp() override {
-    GenerateSettings settings;
-    settings.particles = 3000;
-    write_gadget2(folder_ / "u", generate_universe(settings));
+    write_universe(folder_ / "u", 3000);
     const auto snapshot = open();
     std::vector<std::string> notes;
     source_ = tree_source(*snapshot, gas_type, {"internal_energy"}, notes, {});

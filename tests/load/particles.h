@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <utility>
@@ -8,6 +10,7 @@
 
 #include "snapshot/memory_snapshot.h"
 #include "splotchcl/error.h"
+#include "splotchcl/generate.h"
 #include "splotchcl/load.h"
 
 namespace splotchcl::test {
@@ -48,6 +51,12 @@ inline NumberedSnapshot gas_row(int count = 6) {
   snapshot.add(0, "internal_energy", energy);
   snapshot.number(0, ids);
   return snapshot;
+}
+
+inline void write_universe(const std::filesystem::path& path, std::size_t particles) {
+  GenerateSettings settings;
+  settings.particles = particles;
+  write_gadget2(path, generate_universe(settings));
 }
 
 inline Component gas() {

@@ -82,16 +82,12 @@ GadgetBinarySnapshot::GadgetBinarySnapshot(const std::filesystem::path& path) {
   choose_origin();
 }
 
-// Each label once, as the first file has it that does.
 std::vector<const GadgetBlock*> GadgetBinarySnapshot::blocks_of_all_members(int type) const {
   std::vector<const GadgetBlock*> blocks;
   for (const Member& member : members_) {
     if (member.count(type) == 0) continue;
     for (const GadgetBlock& block : member.blocks) {
-      const bool is_known =
-          std::any_of(blocks.begin(), blocks.end(),
-                      [&block](const GadgetBlock* known) { return known->label == block.label; });
-      if ((block.layout.types >> type & 1U) != 0 && !is_known) blocks.push_back(&block);
+      if ((block.layout.types >> type & 1U) != 0) add_if_new(block, blocks);
     }
   }
   return blocks;

@@ -66,6 +66,15 @@ GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
 // there are none at all. Masses of the particles' own go before the table.
 void add_table_mass(ParticleTypeInfo& type, const char* label, std::vector<std::string>& notes);
 
+// Of fields of the files of a snapshot each label once, as the first file has it that does.
+template <class Field>
+void add_if_new(const Field& field, std::vector<const Field*>& fields) {
+  for (const Field* const known : fields) {
+    if (known->label == field.label) return;
+  }
+  fields.push_back(&field);
+}
+
 // Fills what follows from the header: time, redshift, box, h, types with count and mass.
 void describe(const GadgetHeader& header, SnapshotInfo& info);
 

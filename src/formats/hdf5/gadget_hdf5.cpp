@@ -252,18 +252,13 @@ void GadgetHdf5Snapshot::read_motion() {
   if (has_gizmo_units(file)) name_gizmo_units(file, info_);
 }
 
-// Each once, as the first file has it that does.
 std::vector<const Hdf5Field*> GadgetHdf5Snapshot::fields_of_all_members(int type) const {
   std::vector<const Hdf5Field*> fields;
   for (const Hdf5Member& member : members_) {
     const auto of_type = member.fields.find(type);
     if (of_type == member.fields.end()) continue;
-    for (const Hdf5Field& field : of_type->second) {
-      const bool is_known =
-          std::any_of(fields.begin(), fields.end(),
-                      [&field](const Hdf5Field* known) { return known->label == field.label; });
-      if (!is_known) fields.push_back(&field);
-    }
+    for (const Hdf5Field& field : of_type->second)
+      add_if_new(field, fields);
   }
   return fields;
 }

@@ -253,15 +253,6 @@ std::string unit_in(const std::string& word) {
   return is_none ? std::string() : unit;
 }
 
-bool is_unit(const std::string& text) {
-  try {
-    parse_unit(text, UnitFactors{1, 1}, "");
-    return true;
-  } catch (const UsageError&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 namespace {
