@@ -19,6 +19,7 @@
 #include "cli/processes.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
+#include "common/words.h"
 #include "film/dome/dome_test_frame.h"
 #include "film/frames/film_scene.h"
 #include "film/movie/frame_files.h"
@@ -290,8 +291,8 @@ void explain_film(const MovieOptions& options, Console& console) {
   const Frame frame = load_frame(scene, *film.snapshot_at(scene), notes);
   if (!options.output) console.note_each_once(notes);  // else the film tells them
   const int count = static_cast<int>(frames.size());
-  std::cout << fmt::format("# film: {} frame{}; what follows is of frame {}\n", count,
-                           count == 1 ? "" : "s", frames.front());
+  std::cout << fmt::format("# film: {}; what follows is of frame {}\n",
+                           counted(frames.size(), "frame"), frames.front());
   const int samples = scene.movie.motion_blur ? scene.movie.motion_blur->samples : 1;
   if (samples > 1) std::cout << fmt::format("# motion blur: {} drawings for each frame\n", samples);
   print_explanation(make_plan(frame), frame, film.scene(), options, count * samples);

@@ -102,6 +102,10 @@ std::optional<std::string> nearest_name(const std::string& name,
   return nearest;
 }
 
+std::string counted(std::uint64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
 std::string did_you_mean(const std::optional<std::string>& name) {
   return name ? "; did you mean " + *name + "?" : "";
 }

@@ -34,6 +34,9 @@ std::optional<std::uint64_t> parse_whole_number(std::string_view text);
 std::optional<std::string> nearest_name(const std::string& name,
                                         const std::vector<std::string>& candidates);
 
+// "1 frame", "2 frames".
+std::string counted(std::uint64_t count, const std::string& noun);
+
 // "; did you mean x?", or nothing.
 std::string did_you_mean(const std::optional<std::string>& name);
 

@@ -295,9 +295,8 @@ class FormulaParser {
     while (take(","));
     if (!take(")")) refuse("an operator, a comma or )");
     if (operands.size() != count) {
-      throw UsageError(fmt::format("{}: found {} with {} argument{} in \"{}\", expected {}", what_,
-                                   name.text, operands.size(), operands.size() == 1 ? "" : "s",
-                                   text_, count));
+      throw UsageError(fmt::format("{}: found {} with {} in \"{}\", expected {}", what_, name.text,
+                                   counted(operands.size(), "argument"), text_, count));
     }
     const std::size_t part = add(operation, operands, name.begin);
     parsed_.parts[part].name = function;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "common/mapped_file.h"
+#include "common/words.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -145,9 +146,8 @@ RotationCurve parse_rotation_curve(const std::string& text, const std::string& n
     speeds.push_back(point.speed);
   }
   if (radii.size() < 2) {
-    throw DataError(
-        fmt::format("{}: found {} line{} with a radius and a speed, expected at least two", name,
-                    radii.size(), radii.size() == 1 ? "" : "s"));
+    throw DataError(fmt::format("{}: found {} with a radius and a speed, expected at least two",
+                                name, counted(radii.size(), "line")));
   }
   try {
     return RotationCurve::table(std::move(radii), std::move(speeds));

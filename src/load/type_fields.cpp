@@ -405,9 +405,9 @@ void TypeFields::refuse_field(const std::string& field, const std::string& key) 
 
 void TypeFields::refuse_width(const FieldInfo& info, const std::string& field,
                               const std::string& key, const char* expected) const {
-  throw UsageError(fmt::format(
-      "{}: {} is \"{}\", which has {} value{} per particle, expected a field with {}", label_, key,
-      field, info.values_per_particle, info.values_per_particle == 1 ? "" : "s", expected));
+  throw UsageError(
+      fmt::format("{}: {} is \"{}\", which has {} per particle, expected a field with {}", label_,
+                  key, field, counted(info.values_per_particle, "value"), expected));
 }
 
 std::string TypeFields::file() const {

@@ -10,6 +10,7 @@
 #include <set>
 #include <vector>
 
+#include "common/words.h"
 #include "parallel/for_blocks.h"
 #include "scene/ceil_divide.h"
 #include "snapshot/field_names.h"
@@ -257,14 +258,14 @@ void note_strangers(int type, const IdMatch& match, SnapshotPair& pair) {
   const std::string names =
       fmt::format("from {} to {}", name_of(pair.first->info()), name_of(pair.second->info()));
   if (vanishing + match.appearing.size() > match.ambiguous) {
-    pair.notes.push_back(fmt::format("{}, {} particles of type {} vanish and {} appear: they fade",
-                                     names, vanishing, type, match.appearing.size()));
+    pair.notes.push_back(fmt::format("{}, {} of type {} vanish and {} appear: they fade", names,
+                                     counted(vanishing, "particle"), type, match.appearing.size()));
   }
   if (match.ambiguous > 0) {
     pair.notes.push_back(fmt::format(
-        "{}, {} particles of type {} share their id with another, so that it is not known which is "
+        "{}, {} of type {} share their id with another, so that it is not known which is "
         "which: they fade instead of moving",
-        names, match.ambiguous, type));
+        names, counted(match.ambiguous, "particle"), type));
   }
 }
 

@@ -81,9 +81,9 @@ Orbit slow_orbit(bool is_series) {
 }
 
 std::string note_of(const Scene& scene, std::size_t snapshots) {
-  const std::string time = snapshots > 0 ? fmt::format("{} snapshots and ", snapshots) : "";
-  return fmt::format("no path: {}an orbit of {:g} degrees in {} frames (path, movie.frames)", time,
-                     scene.path.orbit->degrees, *scene.movie.frames);
+  const std::string time = snapshots > 0 ? counted(snapshots, "snapshot") + " and " : std::string();
+  return fmt::format("no path: {}an orbit of {:g} degrees in {} (path, movie.frames)", time,
+                     scene.path.orbit->degrees, counted(*scene.movie.frames, "frame"));
 }
 
 // Scenes that were opened have one, where they have a sequence.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/words.h"
 #include "snapshot/field_names.h"
 #include "snapshot/stated_numbers.h"
 #include "splotchcl/error.h"
@@ -110,8 +111,8 @@ GadgetHeader merge_headers(const std::vector<GadgetHeader>& headers,
     }
   }
   if (merged.particles() == 0) {
-    throw DataError(fmt::format("{}: the headers of its {} files count no particles of any type",
-                                paths.front().string(), paths.size()));
+    throw DataError(fmt::format("{}: the headers of its {} count no particles of any type",
+                                paths.front().string(), counted(paths.size(), "file")));
   }
   if (headers.size() == 1 && merged.files > 1) {
     notes.push_back(

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/words.h"
 #include "formats/snapshot_format.h"
 #include "formats/table.h"
 #include "formats/text/table_layout.h"
@@ -76,24 +77,24 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, TableLayout layout,
   }
   if (wanted.empty() && layout_.other_names > 0) {
     throw DataError(
-        fmt::format("{}: line {} has {} columns, but the line of names above has {}; correct that "
+        fmt::format("{}: line {} has {}, but the line of names above has {}; correct that "
                     "line, or name "
                     "them all in their order, as in read.columns = [\"x\", \"y\", \"z\", "
                     "\"mass\"], \"-\" for those "
                     "that are not needed",
-                    path, layout_.lines_before + 1, width, layout_.other_names));
+                    path, layout_.lines_before + 1, counted(width, "column"), layout_.other_names));
   }
   if (wanted.empty()) {
     throw DataError(fmt::format(
-        "{}: a table of {} columns without a header that names them; name them in their order, as "
+        "{}: a table of {} without a header that names them; name them in their order, as "
         "in read.columns = [\"x\", \"y\", \"z\", \"mass\"]",
-        path, width));
+        path, counted(width, "column")));
   }
   if (wanted.size() != width) {
     throw UsageError(fmt::format(
-        "{}: line {} has {} columns, but read.columns names {}; name each of them (\"-\" for those "
+        "{}: line {} has {}, but read.columns names {}; name each of them (\"-\" for those "
         "that are not needed), or leave out the lines before the table with read.skip_lines",
-        path, layout_.lines_before + 1, width, wanted.size()));
+        path, layout_.lines_before + 1, counted(width, "column"), wanted.size()));
   }
   find_decimal_mark();
   find_columns(wanted, notes);
@@ -148,8 +149,8 @@ void TextTable::count_rows() {
   }
   if (!layout_.rows || *layout_.rows == rows_) return;
   throw DataError(fmt::format(
-      "{}: found {} rows, expected {} as the file says; it is truncated or damaged: write it again",
-      file_->path().string(), rows_, *layout_.rows));
+      "{}: found {}, expected {} as the file says; it is truncated or damaged: write it again",
+      file_->path().string(), counted(rows_, "row"), *layout_.rows));
 }
 
 // Some codes write first how many rows there are. As a row it would be a particle: unlike one it is
@@ -180,8 +181,10 @@ void TextTable::leave_out_line_of_counts(std::vector<std::string>& notes) {
 }
 
 void TextTable::fail(const TextLines& line, const std::string& what) const {
-  throw DataError(fmt::format("{}: line {}: {}; the file is truncated or damaged: write it again",
-                              file_->path().string(), line.number(), what));
+  throw DataError(
+      fmt::format("{}: line {}: {}; take out what stands below the table, or write the file again "
+                  "if it is truncated or damaged",
+                  file_->path().string(), line.number(), what));
 }
 
 std::string TextTable::no_number(std::string_view cell) const {
@@ -200,8 +203,8 @@ void TextTable::refuse_cell(const TextLines& line, std::string_view cell) const 
 
 // Without names, lines before the table may look like its first row.
 void TextTable::refuse_count(const TextLines& line, std::size_t cells) const {
-  const std::string what =
-      fmt::format("found {} values, expected {} as in the first row", cells, layout_.cells.size());
+  const std::string what = fmt::format("found {}, expected {} as in the first row",
+                                       counted(cells, "value"), layout_.cells.size());
   const bool may_be_first = layout_.names.empty() && line.number() == layout_.lines_before + 2;
   if (!may_be_first) fail(line, what);
   throw DataError(fmt::format(
