@@ -27,6 +27,21 @@ fs::path with_suffix(fs::path path, const std::string& suffix) {
   return path += suffix;
 }
 
+bool is_file(const fs::path& path) {
+  return fs::is_regular_file(path);
+}
+
+fs::path numbered_file(const MemberName& name, int number) {
+  return with_suffix(name.base, fmt::format(".{}{}", number, name.ending));
+}
+
+std::vector<fs::path> numbered(const MemberName& name, int count) {
+  std::vector<fs::path> files;
+  for (int i = 0; i < count; ++i)
+    files.push_back(numbered_file(name, i));
+  return files;
+}
+
 }  // namespace
 
 std::optional<MemberName> parse_member_name(const fs::path& path) {
@@ -69,37 +84,35 @@ std::optional<PathInFile> path_in_file(const fs::path& path) {
 std::vector<fs::path> find_members(const fs::path& member, int count) {
   if (count <= 1) return {member};
   const std::optional<MemberName> name = parse_member_name(member);
-  if (!name || name->index >= count) {
+  std::vector<fs::path> members;
+  if (name && name->index < count) members = numbered(*name, count);
+  const auto missing = std::find_if_not(members.begin(), members.end(), is_file);
+  if (!members.empty() && missing == members.end()) return members;
+  if (fs::is_symlink(member)) return find_members(fs::canonical(member), count);
+  if (members.empty()) {
     throw DataError(fmt::format(
         "{}: its header says that it is one of {} files, so its name should end in a number from "
         ".0 to .{}; give the files their original names",
         member.string(), count, count - 1));
   }
-  std::vector<fs::path> members;
-  for (int i = 0; i < count; ++i) {
-    const fs::path path = with_suffix(name->base, fmt::format(".{}{}", i, name->ending));
-    if (!fs::is_regular_file(path)) {
-      throw DataError(fmt::format(
-          "{}: missing, but the header of {} says that the snapshot has {} files; put all of them "
-          "into the same folder",
-          path.string(), member.filename().string(), count));
-    }
-    members.push_back(path);
-  }
-  return members;
+  throw DataError(fmt::format(
+      "{}: missing, but the header of {} says that the snapshot has {} files; put all of them into "
+      "the same folder",
+      missing->string(), member.filename().string(), count));
 }
 
 std::vector<fs::path> find_siblings(const fs::path& member) {
   const std::optional<MemberName> name = parse_member_name(member);
   std::vector<fs::path> siblings;
   while (name) {
-    const fs::path path =
-        with_suffix(name->base, fmt::format(".{}{}", siblings.size(), name->ending));
-    if (!fs::is_regular_file(path)) break;
+    const fs::path path = numbered_file(*name, static_cast<int>(siblings.size()));
+    if (!is_file(path)) break;
     siblings.push_back(path);
   }
   const bool is_one_of_them = name && static_cast<std::size_t>(name->index) < siblings.size();
-  return is_one_of_them ? siblings : std::vector<fs::path>{member};
+  if (is_one_of_them && siblings.size() > 1) return siblings;
+  if (fs::is_symlink(member)) return find_siblings(fs::canonical(member));
+  return {member};
 }
 
 fs::path find_by_base_name(const fs::path& path) {

@@ -31,12 +31,14 @@ struct PathInFile {
 };
 std::optional<PathInFile> path_in_file(const std::filesystem::path& path);
 
-// The names of the `count` files of the set that `member` belongs to, in order. Throws
-// DataError when the name is not that of a member or when a file is missing.
+// The names of the `count` files of the set that `member` belongs to, in order; a link that is
+// none of a set beside it belongs to that of the file it points to. Throws DataError when the name
+// is not that of a member or when a file is missing.
 std::vector<std::filesystem::path> find_members(const std::filesystem::path& member, int count);
 
 // The files that are there of the set that `member` would belong to by its name, numbered from 0
-// without a gap; itself alone where its name is not that of a member of such a set.
+// without a gap; itself alone where its name is not that of a member of such a set. Links are as
+// above.
 std::vector<std::filesystem::path> find_siblings(const std::filesystem::path& member);
 
 // The existing file that `path` stands for when it is the base name of a set or lacks
