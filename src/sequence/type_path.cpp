@@ -263,8 +263,8 @@ void note_strangers(int type, const IdMatch& match, SnapshotPair& pair) {
   }
   if (match.ambiguous > 0) {
     pair.notes.push_back(fmt::format(
-        "{}, {} of type {} share their id with another, so that it is not known which is "
-        "which: they fade instead of moving",
+        "{}, {} of type {} share their id with another, so that it is not known which is which: "
+        "they fade instead of moving",
         names, counted(match.ambiguous, "particle"), type));
   }
 }

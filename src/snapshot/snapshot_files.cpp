@@ -27,19 +27,8 @@ fs::path with_suffix(fs::path path, const std::string& suffix) {
   return path += suffix;
 }
 
-bool is_file(const fs::path& path) {
-  return fs::is_regular_file(path);
-}
-
-fs::path numbered_file(const MemberName& name, int number) {
+fs::path numbered_file(const MemberName& name, std::size_t number) {
   return with_suffix(name.base, fmt::format(".{}{}", number, name.ending));
-}
-
-std::vector<fs::path> numbered(const MemberName& name, int count) {
-  std::vector<fs::path> files;
-  for (int i = 0; i < count; ++i)
-    files.push_back(numbered_file(name, i));
-  return files;
 }
 
 }  // namespace
@@ -47,13 +36,10 @@ std::vector<fs::path> numbered(const MemberName& name, int count) {
 std::optional<MemberName> parse_member_name(const fs::path& path) {
   MemberName member;
   std::string name = path.filename().string();
-  for (const std::string ending : {".hdf5", ".h5"}) {
-    if (name.size() > ending.size() &&
-        name.compare(name.size() - ending.size(), ending.size(), ending) == 0) {
-      member.ending = ending;
-      name.resize(name.size() - ending.size());
-      break;
-    }
+  const std::string ending = path.extension().string();
+  if (is_hdf5_ending(ending)) {
+    member.ending = ending;
+    name = path.stem().string();
   }
   const std::size_t dot = name.rfind('.');
   if (dot == std::string::npos || dot == 0) return std::nullopt;
@@ -81,15 +67,26 @@ std::optional<PathInFile> path_in_file(const fs::path& path) {
   return std::nullopt;
 }
 
+std::vector<fs::path> numbered_files(const MemberName& name, std::size_t most) {
+  std::vector<fs::path> files;
+  while (files.size() < most) {
+    const fs::path file = numbered_file(name, files.size());
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) break;
+    files.push_back(file);
+  }
+  return files;
+}
+
 std::vector<fs::path> find_members(const fs::path& member, int count) {
   if (count <= 1) return {member};
   const std::optional<MemberName> name = parse_member_name(member);
-  std::vector<fs::path> members;
-  if (name && name->index < count) members = numbered(*name, count);
-  const auto missing = std::find_if_not(members.begin(), members.end(), is_file);
-  if (!members.empty() && missing == members.end()) return members;
+  const bool is_one_of_them = name && name->index < count;
+  std::vector<fs::path> files;
+  if (is_one_of_them) files = numbered_files(*name, static_cast<std::size_t>(count));
+  if (files.size() == static_cast<std::size_t>(count)) return files;
   if (fs::is_symlink(member)) return find_members(fs::canonical(member), count);
-  if (members.empty()) {
+  if (!is_one_of_them) {
     throw DataError(fmt::format(
         "{}: its header says that it is one of {} files, so its name should end in a number from "
         ".0 to .{}; give the files their original names",
@@ -98,21 +95,16 @@ std::vector<fs::path> find_members(const fs::path& member, int count) {
   throw DataError(fmt::format(
       "{}: missing, but the header of {} says that the snapshot has {} files; put all of them into "
       "the same folder",
-      missing->string(), member.filename().string(), count));
+      numbered_file(*name, files.size()).string(), member.filename().string(), count));
 }
 
 std::vector<fs::path> find_siblings(const fs::path& member) {
   const std::optional<MemberName> name = parse_member_name(member);
-  std::vector<fs::path> siblings;
-  while (name) {
-    const fs::path path = numbered_file(*name, static_cast<int>(siblings.size()));
-    if (!is_file(path)) break;
-    siblings.push_back(path);
-  }
-  const bool is_one_of_them = name && static_cast<std::size_t>(name->index) < siblings.size();
-  if (is_one_of_them && siblings.size() > 1) return siblings;
-  if (fs::is_symlink(member)) return find_siblings(fs::canonical(member));
-  return {member};
+  std::vector<fs::path> files;
+  if (name) files = numbered_files(*name);
+  if (files.size() > 1 && static_cast<std::size_t>(name->index) < files.size()) return files;
+  if (fs::is_symlink(member)) files = find_siblings(fs::canonical(member));
+  return files.size() > 1 ? files : std::vector<fs::path>{member};
 }
 
 fs::path find_by_base_name(const fs::path& path) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,6 +23,10 @@ struct MemberName {
   std::string ending;  // "", ".hdf5" or ".h5"
 };
 std::optional<MemberName> parse_member_name(const std::filesystem::path& path);
+
+// Those of its set that are there, numbered from 0 without a gap, `most` of them at most.
+std::vector<std::filesystem::path> numbered_files(
+    const MemberName& name, std::size_t most = std::numeric_limits<std::size_t>::max());
 
 // A path that goes on within a file, to one of its groups: steps.h5/Step#3,
 // openpmd.h5/data/100.

@@ -99,6 +99,15 @@ TEST_P(MultiFile, AMissingMemberIsNamed) {
   EXPECT_THAT(refusal(member(2)), AllOf(HasSubstr(member(1).string()), HasSubstr("3 files")));
 }
 
+TEST_P(MultiFile, ALinkToAMemberStandsForTheSetWhereItPoints) {
+  write_set(split(snapshot(), 3));
+  for (const char* const name : {"latest", "link.0"}) {
+    std::filesystem::create_symlink(member(1), folder_ / name);
+    EXPECT_EQ(open_snapshot(folder_ / name)->info().files,
+              (std::vector<std::filesystem::path>{member(0), member(1), member(2)}));
+  }
+}
+
 TEST_P(MultiFile, AMemberUnderAnotherNameIsRefused) {
   write(folder_ / "renamed", split(snapshot(), 3)[0]);
   EXPECT_THAT(refusal(folder_ / "renamed"), HasSubstr("one of 3 files"));

@@ -1,7 +1,11 @@
+#include <fstream>
+#include <limits>
+
 #include "scene/statistics.h"
 #include "snapshot/field_names.h"
 #include "snapshot/snapshot_files.h"
 #include "snapshot/unit.h"
+#include "splotchcl/error.h"
 #include "testing.h"
 
 namespace splotchcl {
@@ -106,6 +110,24 @@ TEST(MemberNames, OthersAreNotMistakenForThem) {
                            "snap.99999999999999999999"}) {
     EXPECT_FALSE(parse_member_name(name)) << name;
   }
+}
+
+TEST(MemberNames, OfMoreFilesThanMemoryHoldsTheFirstThatIsMissingIsToldAtOnce) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "snap.0").put(0);
+  try {
+    find_members(folder / "snap.0", std::numeric_limits<int>::max());
+    ADD_FAILURE() << "no error";
+  } catch (const DataError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("snap.1: missing"));
+  }
+}
+
+TEST(MemberNames, ALinkToAFileOfItsOwnKeepsItsName) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "snap.0").put(0);
+  std::filesystem::create_symlink(folder / "snap.0", folder / "latest");
+  EXPECT_THAT(find_siblings(folder / "latest"), ElementsAre(folder / "latest"));
 }
 
 TEST(ParticleTypes, TheNamesThatPeopleUseAreFoundInAnyCase) {

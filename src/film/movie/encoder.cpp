@@ -77,18 +77,16 @@ std::vector<std::string> eyes_of(const std::filesystem::path& path, const FilmLa
           std::string("stereo_mode=") + (is_beside ? "left_right" : "top_bottom")};
 }
 
-// Each picture of H.264 says by itself how two eyes are packed, squeezed or not: screens that know
-// no boxes look there.
-std::string packing_of(const FilmLayout& layout) {
-  if (layout.eyes == FilmLayout::Eyes::one) return "";
-  return layout.eyes == FilmLayout::Eyes::side_by_side ? ":frame-packing=3" : ":frame-packing=4";
-}
-
-// x264 that looks ahead in a thread of its own writes other bytes now and then on a busy machine
-// (1 film in 30); without that thread it is as fast.
-std::vector<std::string> parameters_of(const CodecFacts& facts, const FilmLayout& layout) {
+std::vector<std::string> x264_parameters(const CodecFacts& facts, const FilmLayout& layout) {
   if (facts.codec != Codec::h264) return {};
-  return {"-x264-params", "sync-lookahead=0" + packing_of(layout)};
+  // x264 that looks ahead in a thread of its own writes other bytes now and then on a busy machine
+  // (1 film in 30); without that thread it is as fast.
+  std::string parameters = "sync-lookahead=0";
+  // Each picture says by itself how two eyes are packed, squeezed or not: screens that know no
+  // boxes look there.
+  if (layout.eyes == FilmLayout::Eyes::side_by_side) parameters += ":frame-packing=3";
+  if (layout.eyes == FilmLayout::Eyes::top_bottom) parameters += ":frame-packing=4";
+  return {"-x264-params", parameters};
 }
 
 std::vector<std::string> arguments(const std::filesystem::path& path, const MovieSettings& settings,
@@ -121,7 +119,7 @@ std::vector<std::string> arguments(const std::filesystem::path& path, const Movi
   }
   add(color_arguments(facts, bits));
   add(codec_arguments(facts, settings, bits));
-  add(parameters_of(facts, layout));
+  add(x264_parameters(facts, layout));
   if (!settings.audio.empty()) add(sound_of(path, facts));
   // No times and versions in the file.
   add({"-flags:v", "+bitexact", "-fflags", "+bitexact", "-map_metadata", "-1"});

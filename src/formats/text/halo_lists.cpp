@@ -12,6 +12,7 @@
 #include "formats/halo_catalog.h"
 #include "formats/text/table_header.h"
 #include "formats/text/text_cells.h"
+#include "snapshot/snapshot_files.h"
 #include "splotchcl/error.h"
 
 namespace splotchcl {
@@ -172,14 +173,8 @@ std::vector<fs::path> rockstar_files(const fs::path& path) {
   const std::string stem = path.stem().string();
   const std::size_t dot = stem.rfind('.');
   if (dot == std::string::npos || !parse_whole_number(stem.substr(dot + 1))) return {path};
-  std::vector<fs::path> files;
-  std::error_code ignored;
-  for (int number = 0;; ++number) {
-    const fs::path file = path.parent_path() / fmt::format("{}.{}{}", stem.substr(0, dot), number,
-                                                           path.extension().string());
-    if (!fs::is_regular_file(file, ignored)) break;
-    files.push_back(file);
-  }
+  const std::vector<fs::path> files =
+      numbered_files({path.parent_path() / stem.substr(0, dot), 0, path.extension().string()});
   return std::find(files.begin(), files.end(), path) == files.end() ? std::vector<fs::path>{path}
                                                                     : files;
 }

@@ -77,11 +77,9 @@ TextTable::TextTable(std::shared_ptr<const MappedFile> file, TableLayout layout,
   }
   if (wanted.empty() && layout_.other_names > 0) {
     throw DataError(
-        fmt::format("{}: line {} has {}, but the line of names above has {}; correct that "
-                    "line, or name "
-                    "them all in their order, as in read.columns = [\"x\", \"y\", \"z\", "
-                    "\"mass\"], \"-\" for those "
-                    "that are not needed",
+        fmt::format("{}: line {} has {}, but the line of names above has {}; correct that line, or "
+                    "name them all in their order, as in read.columns = [\"x\", \"y\", \"z\", "
+                    "\"mass\"], \"-\" for those that are not needed",
                     path, layout_.lines_before + 1, counted(width, "column"), layout_.other_names));
   }
   if (wanted.empty()) {
