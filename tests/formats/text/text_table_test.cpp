@@ -12,8 +12,8 @@ namespace {
 
 std::vector<SnapshotRow> tables() {
   std::vector<SnapshotRow> all;
-  for (const char* const file : {"headers", "headers_of_programs", "units", "rows_and_numbers",
-                                 "other_layouts"}) {
+  for (const char* const file :
+       {"headers", "headers_of_programs", "units", "rows_and_numbers", "other_layouts"}) {
     const std::vector<SnapshotRow> rows = snapshot_rows(fmt::format("text/{}.rows", file));
     all.insert(all.end(), rows.begin(), rows.end());
   }
