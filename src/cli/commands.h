@@ -126,8 +126,9 @@ int run_index(const IndexOptions& options, Console& console);
 
 struct TreeCommandOptions {
   std::filesystem::path snapshot;
-  std::vector<int> types;           // none: all
-  std::vector<std::string> fields;  // none: those that a first picture of the types uses
+  std::vector<int> types;                      // none: all
+  std::optional<std::filesystem::path> scene;  // whose colors nodes have; none: a first picture's
+  std::vector<std::string> fields;             // none: those that this scene uses
   unsigned least = 4;
   bool with_particles = false;
 };

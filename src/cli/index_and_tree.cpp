@@ -14,6 +14,7 @@
 #include "splotchcl/error.h"
 #include "splotchcl/load.h"
 #include "splotchcl/scene.h"
+#include "splotchcl/scene_file.h"
 #include "splotchcl/snapshot_file.h"
 #include "tree/build_tree.h"
 #include "tree/tree_file.h"
@@ -57,6 +58,20 @@ std::vector<int> types_of(const TreeCommandOptions& options, const SnapshotInfo&
   return options.types;
 }
 
+// Its colors are decided, and no more than these.
+DecidedScene scene_of(const TreeCommandOptions& options, const Snapshot& snapshot,
+                      Console& console) {
+  Scene scene = options.scene ? read_scene_file(*options.scene) : suggest_scene(snapshot);
+  for (Component& component : scene.components)
+    component.reference_column = 1;
+  std::vector<std::string> notes;
+  DecidedScene decided = decide(scene, snapshot, notes, [&](const std::string& what, double done) {
+    console.progress(what, done);
+  });
+  console.note_each_once(notes);
+  return decided;
+}
+
 }  // namespace
 
 int run_tree(const TreeCommandOptions& options, Console& console) {
@@ -72,18 +87,19 @@ int run_tree(const TreeCommandOptions& options, Console& console) {
     throw UsageError(fmt::format("--fields: found {} fields, expected at most {}",
                                  options.fields.size(), most_fields));
   }
-  const Scene suggested = options.fields.empty() ? suggest_scene(*snapshot) : Scene();
+  const DecidedScene decided = scene_of(options, *snapshot, console);
   std::vector<TreeOfType> trees;
   std::vector<TreeSource> particles_of_trees;
   std::uint64_t particles = 0, nodes = 0;
   for (const int type : types_of(options, info)) {
     const std::vector<std::string> fields =
-        options.fields.empty() ? fields_shown(suggested, type) : options.fields;
+        options.fields.empty() ? fields_shown(decided.scene, type) : options.fields;
     std::vector<std::string> notes;
     const LoadProgress reading = [&](const std::string& what, double fraction) {
       console.progress(what, fraction);
     };
     TreeSource source = tree_source(*snapshot, type, fields, notes, reading);
+    source.colors = colors_shown(decided, type, fields);
     console.note_each_once(notes);
     TreeOptions of_tree;
     of_tree.least = options.least;

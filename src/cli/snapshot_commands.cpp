@@ -87,9 +87,13 @@ void add_tree(CLI::App& app, Run& run, Console& console) {
       ->delimiter(',');
   sub->add_option("--fields", options->fields,
                   wrapped("Fields to color by, at most four, which all these types have. Default: "
-                          "what a first picture uses"))
+                          "those of the scene"))
       ->type_name("NAME,...")
       ->delimiter(',');
+  sub->add_option("--scene", options->scene,
+                  wrapped("A scene file: of its colors, nodes have the mean of all their "
+                          "particles; of others, that of eight. Default: the first picture's"))
+      ->type_name("FILE");
   add_number(*sub, "--least", options->least, "N",
              "Particles of a node at least, 2 to 32. Default: 4; 8 takes half the room and serves "
              "less exact pictures as well",

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "load/component_fields.h"
+#include "load/components.h"
 #include "load/missing_sizes.h"
 #include "load/passes.h"
 #include "load/placement.h"
@@ -37,16 +38,15 @@ std::shared_ptr<const TreeOfType> known_tree(const Snapshot& snapshot, int type)
   return found == trees->end() ? nullptr : *found;
 }
 
-// Among the tree's; nothing where it is not there, -1 where the scene names none.
-std::optional<int> field_of(const TreeOfType& tree, const std::string& name) {
+// Among a tree's; nothing where it is not there, -1 where the scene names none.
+std::optional<int> field_of(const std::vector<std::string>& fields, const std::string& name) {
   if (name.empty()) return -1;
   const std::string canonical = canonical_field_name(name);
-  const auto found =
-      std::find_if(tree.fields.begin(), tree.fields.end(), [&](const std::string& field) {
-        return canonical.empty() ? field == name : canonical_field_name(field) == canonical;
-      });
-  if (found == tree.fields.end()) return std::nullopt;
-  return static_cast<int>(found - tree.fields.begin());
+  const auto found = std::find_if(fields.begin(), fields.end(), [&](const std::string& field) {
+    return canonical.empty() ? field == name : canonical_field_name(field) == canonical;
+  });
+  if (found == fields.end()) return std::nullopt;
+  return static_cast<int>(found - fields.begin());
 }
 
 // A number as field_of() gives it.
@@ -96,7 +96,7 @@ const TreeOfType* tree_with_sample(const Snapshot& snapshot, int type) {
 std::optional<Column> kept_values(const TreeOfType& tree, const std::string& field) {
   const ParticleSample& sample = *tree.sample;
   if (field == "position") return sample.particles.position;
-  if (const std::optional<int> number = field_of(tree, field))
+  if (const std::optional<int> number = field_of(tree.fields, field))
     return field_in(sample.particles, *number);
   const auto& names = sample.other_names;
   const auto other = std::find(names.begin(), names.end(), field);
@@ -145,8 +145,8 @@ std::shared_ptr<const TreeOfComponent> component_tree(const Component& component
   for (const int type : types) {
     const auto known = known_tree(snapshot, type);
     if (!known || known->weight != weight) return nullptr;
-    const std::optional<int> color = field_of(*known, component.color.field);
-    const std::optional<int> intensity = field_of(*known, component.intensity.field);
+    const std::optional<int> color = field_of(known->fields, component.color.field);
+    const std::optional<int> intensity = field_of(known->fields, component.intensity.field);
     if (!color || !intensity) return nullptr;
     const bool has_order = known->order != nullptr || known->order_count == 0;
     if (!has_order && !known->particles) return nullptr;
@@ -198,16 +198,41 @@ std::string tell_stale_tree(const Snapshot& snapshot) {
       tree_path(snapshot.info()).string());
 }
 
+namespace {
+
+bool draws(const Component& component, int type) {
+  const auto& types = component.types;
+  return std::find(types.begin(), types.end(), type) != types.end();
+}
+
+}  // namespace
+
 std::vector<std::string> fields_shown(const Scene& scene, int type) {
   std::set<std::string> fields;
   for (const Component& component : scene.components) {
-    if (std::find(component.types.begin(), component.types.end(), type) == component.types.end())
-      continue;
+    if (!draws(component, type)) continue;
     for (const FieldMap* const map : {&component.color, &component.intensity}) {
       if (!map->field.empty()) fields.insert(map->field);
     }
   }
   return {fields.begin(), fields.end()};
+}
+
+std::optional<ColorRule> colors_shown(const DecidedScene& decided, int type,
+                                      const std::vector<std::string>& fields) {
+  const std::vector<Component>& components = decided.scene.components;
+  const auto found =
+      std::find_if(components.begin(), components.end(),
+                   [type](const Component& component) { return draws(component, type); });
+  if (found == components.end() || !found->color_vector.empty()) return std::nullopt;
+  const std::optional<int> color = field_of(fields, found->color.field);
+  const std::optional<int> intensity = field_of(fields, found->intensity.field);
+  if (!color || !intensity) return std::nullopt;
+  Palette palette = choose_palette(*found);
+  if (palette.has_own_absorption()) return std::nullopt;
+  const auto c = static_cast<std::size_t>(found - components.begin());
+  return ColorRule{*color, *intensity, decided.components[c].color, decided.components[c].intensity,
+                   std::move(palette)};
 }
 
 TreeSource tree_source(const Snapshot& snapshot, int type, const std::vector<std::string>& fields,

@@ -52,6 +52,12 @@ std::string tell_stale_tree(const Snapshot& snapshot);
 // Of the scene's components that draw the type: what they take color and intensity from.
 std::vector<std::string> fields_shown(const Scene& scene, int type);
 
+// How the first of the scene's components that draw the type colors its particles by these fields.
+// Nothing where it takes other ones, or colors that no tree serves. Throws UsageError for a palette
+// that there is not.
+std::optional<ColorRule> colors_shown(const DecidedScene& decided, int type,
+                                      const std::vector<std::string>& fields);
+
 // What a tree of one type is made of: its particles as scenes draw them, with masses as weights
 // where these are known, and the fields of these names. Throws as loading a component does.
 TreeSource tree_source(const Snapshot& snapshot, int type, const std::vector<std::string>& fields,

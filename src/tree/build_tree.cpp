@@ -37,7 +37,12 @@ class TreeBuilder {
  public:
   TreeBuilder(const TreeSource& source, const TreeOptions& options,
               const std::function<void(double)>& progress)
-      : source_(source), options_(options), progress_(progress) {}
+      : source_(source),
+        options_(options),
+        progress_(progress),
+        merged_{!source.fields.empty(), source.colors.has_value()} {
+    if (source.colors) colors_.emplace(*source.colors);
+  }
 
   TreeOfType build() {
     const SourceExtent extent = find_extent(source_);
@@ -113,6 +118,7 @@ class TreeBuilder {
     sample.flux = held.flux[i];
     member.samples.add(sample);
     member.samples.least = member.samples.largest = sample.values;
+    if (colors_) member.colors = ColorMoments::of_particle((*colors_)(sample.values));
     return member;
   }
 
@@ -187,7 +193,7 @@ class TreeBuilder {
       nodes.push_back(std::move(parts[p]));
       octants_of_nodes.push_back(octant_of_part[p]);
     }
-    rest.node = merge(rest.loose, !source_.fields.empty());
+    rest.node = merge(rest.loose, merged_);
     store(*rest.node, level, 0, loose, arrays);
     arrays.nodes.back().members |= TreeNode::rest_bit;
     below.insert_before(nodes_behind, arrays);
@@ -225,7 +231,7 @@ class TreeBuilder {
     }
     Branch branch;
     branch.count = count;
-    branch.node = merge(members, !source_.fields.empty());
+    branch.node = merge(members, merged_);
     store(*branch.node, level, children, loose, arrays);
     return branch;
   }
@@ -234,6 +240,7 @@ class TreeBuilder {
              LevelArrays& arrays) const {
     arrays.nodes.push_back(stored_node(node, level));
     store_fields(node, arrays);
+    if (colors_) arrays.colors.push_back(stored_color(node.colors, level));
     arrays.children.push_back(children);
     arrays.loose.push_back(static_cast<std::uint8_t>(loose));
   }
@@ -301,6 +308,7 @@ class TreeBuilder {
     tree.side = cube_.side;
     for (const TreeSource::Field& field : source_.fields)
       tree.fields.push_back(field.name);
+    if (source_.colors) tree.colors = source_.colors->key();
     take_levels(std::move(levels_), tree);
     return tree;
   }
@@ -308,6 +316,8 @@ class TreeBuilder {
   const TreeSource& source_;
   const TreeOptions& options_;
   const std::function<void(double)>& progress_;
+  const MergedParts merged_;
+  std::optional<ParticleColors> colors_;
   TreeCube cube_;
   CellCounts counts_;
   std::vector<Branch> branches_;  // of all cells

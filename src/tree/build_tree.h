@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "splotchcl/particles.h"
+#include "tree/field_colors.h"
 #include "tree/particle_tree.h"
 
 namespace splotchcl {
@@ -23,6 +25,8 @@ struct TreeSource {
     Column values;
   };
   std::vector<Field> fields;  // most_fields at most
+  // Of these colors, nodes have the mean of all members.
+  std::optional<ColorRule> colors;
 };
 
 struct TreeOptions {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "parallel/for_blocks.h"
+#include "scene/hash.h"
 #include "scene/scalar_map.h"
-#include "tree/sampled_field.h"
 
 namespace splotchcl {
 namespace {
@@ -45,6 +45,45 @@ PaletteWay::PaletteWay(const Palette& palette) {
     }
     knots_.push_back(knot);
   }
+}
+
+namespace {
+
+void add(const ScalarMap& map, WordHash& hash) {
+  hash.add(static_cast<std::uint64_t>(map.scaling));
+  hash.add(map.minimum);
+  hash.add(map.maximum);
+}
+
+}  // namespace
+
+std::uint64_t ColorRule::key() const {
+  WordHash hash;
+  for (const int field : {color, intensity})
+    hash.add(static_cast<std::uint64_t>(field + 1));
+  if (color >= 0) add(color_map, hash);
+  if (intensity >= 0) add(intensity_map, hash);
+  for (const Rgb& knot : palette.emission) {
+    for (const float channel : knot)
+      hash.add(static_cast<double>(channel));
+  }
+  return hash.value();
+}
+
+ParticleColors::ParticleColors(const ColorRule& rule) : rule_(rule), palette_(rule.palette) {
+  if (rule.color >= 0) places_.emplace(rule.color_map);
+  if (rule.intensity >= 0) intensities_.emplace(rule.intensity_map);
+}
+
+std::array<float, 3> ParticleColors::operator()(const MemberValues& values) const {
+  const auto place_of = [&values](const FieldPlaces& places, int field) {
+    return places(ordered_value(values[static_cast<std::size_t>(field)]));
+  };
+  std::array<float, 3> color = palette_.color(places_ ? place_of(*places_, rule_.color) : 0);
+  const float intensity = intensities_ ? place_of(*intensities_, rule_.intensity) : 1;
+  for (float& channel : color)
+    channel *= intensity;
+  return color;
 }
 
 }  // namespace splotchcl

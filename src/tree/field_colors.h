@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "splotchcl/frame.h"
+#include "tree/sampled_field.h"
 
 namespace splotchcl {
 
@@ -57,6 +59,28 @@ class PaletteWay {
 
  private:
   std::vector<Step> knots_;
+};
+
+// What makes colors of a particle's fields, in a scene whose numbers are decided.
+struct ColorRule {
+  int color = -1, intensity = -1;  // among the tree's fields; -1: none is used
+  ScalarMap color_map, intensity_map;
+  Palette palette;
+
+  // Of rules that give other colors another.
+  std::uint64_t key() const;
+};
+
+// The colors that a rule gives.
+class ParticleColors {
+ public:
+  explicit ParticleColors(const ColorRule& rule);
+  std::array<float, 3> operator()(const MemberValues& values) const;
+
+ private:
+  ColorRule rule_;
+  PaletteWay palette_;
+  std::optional<FieldPlaces> places_, intensities_;
 };
 
 }  // namespace splotchcl

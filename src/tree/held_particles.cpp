@@ -70,7 +70,7 @@ HeldParticles hold(const TreeSource& source, const TreeCube& cube, int level,
             held.position[to][axis] = stretch.position(i, axis);
           held.h[to] = static_cast<float>(stretch.h(i));
           held.flux[to] = stretch.flux(i);
-          const FieldValues values = stretch.values(i);
+          const MemberValues values = stretch.values(i);
           std::copy_n(values.begin(), source.fields.size(),
                       held.values.begin() + static_cast<std::ptrdiff_t>(to * source.fields.size()));
         }

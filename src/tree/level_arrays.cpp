@@ -31,6 +31,7 @@ TreeLevel level_of(Memory& memory, std::size_t l) {
   level.count = arrays.nodes.size();
   level.nodes = arrays.nodes.data();
   level.fields = arrays.fields.data();
+  level.colors = arrays.colors.empty() ? nullptr : arrays.colors.data();
   level.children = arrays.children.data();
   level.loose = arrays.loose.data();
   level.first_children = memory.first_children[l].data();

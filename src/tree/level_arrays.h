@@ -13,6 +13,7 @@ namespace splotchcl {
 struct LevelArrays {
   std::vector<TreeNode> nodes;
   std::vector<SampledField> fields;
+  std::vector<MeanColor> colors;  // none, or of each node
   std::vector<std::uint8_t> children, loose;
   std::vector<std::uint32_t> order;  // of the level's loose particles
 
@@ -27,6 +28,7 @@ struct LevelArrays {
     };
     insert(nodes, node.nodes, last_ones);
     insert(fields, node.fields, last_ones * fields_of_node);
+    insert(colors, node.colors, last_ones * node.colors.size());
     insert(children, node.children, last_ones);
     insert(loose, node.loose, last_ones);
     insert(order, node.order, later);
@@ -38,6 +40,7 @@ struct LevelArrays {
     };
     add(nodes, more.nodes);
     add(fields, more.fields);
+    add(colors, more.colors);
     add(children, more.children);
     add(loose, more.loose);
     add(order, more.order);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tree/node_bytes.h"
 #include "tree/sampled_field.h"
 
 namespace splotchcl {
@@ -76,6 +77,13 @@ NodeColor node_color(const TreePart& part, const TreeLevel& level, std::uint64_t
   NodeColor color;
   if (part.part->color < 0 && part.part->intensity < 0) {
     color.mean = part.palette->color(0);
+    return color;
+  }
+  if (part.has_mean_colors) {
+    const MeanColor& of_all = level.colors[node];
+    color.mean = of_all.mean();
+    color.deviation = rough_of_bits(of_all.deviation);
+    color.dipole = rough_of_bits(of_all.dipole);
     return color;
   }
   const std::uint8_t members = level.nodes[node].all_sampled();

@@ -108,9 +108,36 @@ TreeSamples resampled(const std::vector<TreeMember>& members, const NodeMoments&
   return chosen;
 }
 
+ColorMoments merged_colors(const std::vector<TreeMember>& members, const NodeMoments& moments) {
+  ColorMoments sum;
+  for (const TreeMember& member : members) {
+    const double share = moments.flux > 0 ? member.moments.flux / moments.flux
+                                          : 1 / static_cast<double>(members.size());
+    const ColorMoments& part = member.colors;
+    for (std::size_t c = 0; c < 3; ++c) {
+      sum.mean[c] += share * part.mean[c];
+      sum.square[c] += share * part.square[c];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double away = member.moments.centroid.a[axis] - moments.centroid.a[axis];
+        sum.dipole[c][axis] += share * (part.dipole[c][axis] + part.mean[c] * away);
+      }
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
-TreeMember merge(const std::vector<TreeMember>& members, bool has_fields) {
+ColorMoments ColorMoments::of_particle(const std::array<float, 3>& color) {
+  ColorMoments moments;
+  for (std::size_t c = 0; c < 3; ++c) {
+    moments.mean[c] = static_cast<double>(color[c]);
+    moments.square[c] = moments.mean[c] * moments.mean[c];
+  }
+  return moments;
+}
+
+TreeMember merge(const std::vector<TreeMember>& members, const MergedParts& wanted) {
   std::vector<const NodeMoments*> parts;
   for (const TreeMember& member : members) {
     if (member.moments.flux > 0) parts.push_back(&member.moments);
@@ -121,7 +148,8 @@ TreeMember merge(const std::vector<TreeMember>& members, bool has_fields) {
   }
   TreeMember node;
   node.moments = merged_with_dark_ones(parts, members);
-  if (has_fields) node.samples = resampled(members, node.moments);
+  if (wanted.samples) node.samples = resampled(members, node.moments);
+  if (wanted.colors) node.colors = merged_colors(members, node.moments);
   return node;
 }
 
@@ -148,6 +176,16 @@ TreeNode stored_node(const TreeMember& merged, int level) {
   node.reach = rough_bits(1.05 * moments.reach / cell);  // more than is rounded off
   node.flux = static_cast<float>(moments.flux);
   return node;
+}
+
+MeanColor stored_color(const ColorMoments& colors, int level) {
+  double deviation2 = 0, dipole2 = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto& [x, y, z] = colors.dipole[c];
+    deviation2 = std::max(deviation2, colors.square[c] - colors.mean[c] * colors.mean[c]);
+    dipole2 = std::max(dipole2, x * x + y * y + z * z);
+  }
+  return MeanColor::of(colors.mean, std::sqrt(deviation2), std::sqrt(dipole2) / std::exp2(-level));
 }
 
 }  // namespace splotchcl

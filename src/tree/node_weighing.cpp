@@ -20,16 +20,14 @@ double square(double x) {
   return x * x;
 }
 
-// A node's shape in pixels.
+// A node's shape in pixels, of which the tree's side has `scale`.
 struct ShownShape {
   // Variances of the Gaussians that most of the members' peaks have, and of their places.
   double narrow2 = 0, place2 = 0;
   double uneven = 0, third = 0, fourth = 0;
 };
 
-ShownShape shown_shape(const TreePart& part, const TreeNode& node, double cell,
-                       double pixels_per_length) {
-  const double scale = pixels_per_length * part.tree().side;
+ShownShape shown_shape(const TreePart& part, const TreeNode& node, double cell, double scale) {
   ShownShape shape;
   shape.narrow2 = square(length_of_bits(node.size) * narrownesses[node.narrow()] *
                          part.deviation_per_h * scale);
@@ -138,7 +136,8 @@ void NodeWeigher::weigh_error(const TreePart& part, const TreeItem& item, std::s
   const TreeLevel& of_level = part.tree().levels[level];
   const TreeNode& node = of_level.nodes[item.node];
   const double cell = std::ldexp(1.0, -node.cell_level(level));
-  const ShownShape shape = shown_shape(part, node, cell, at.pixels_per_length);
+  const double scale = at.pixels_per_length * part.tree().side;
+  const ShownShape shape = shown_shape(part, node, cell, scale);
   const double footprint2 = square(frame_.kernel.footprint_pixels);
   // Where few members are much narrower than others, they stand out of the node.
   const double seen2 = footprint2 + shape.narrow2;
@@ -151,14 +150,18 @@ void NodeWeigher::weigh_error(const TreePart& part, const TreeItem& item, std::s
   const double amplitude =
       least_amplitude *
       static_cast<double>(std::max({color.mean[0], color.mean[1], color.mean[2]}));
+  // Colors that lie on one side of a node move its light; where that is known, they may lie
+  // unevenly in other ways still. Where not, as if they rose evenly along the node.
+  const double moved2 =
+      color.dipole ? square(*color.dipole * cell * scale) : square(color.deviation) * shape.place2;
+  const double uneven_colors = color.dipole ? least_amplitude * color.deviation : 0;
   // A node errs by no more than all of its light, here and there.
   const double of_shape =
       std::min(2 * narrow.value, square(shape.uneven) * spread.second / 20 +
                                      square(shape.third) * spread.third / 360 +
                                      square(shape.fourth) * spread.fourth / 8640);
-  const double of_places =
-      square(amplitude) * of_shape +
-      square(least_amplitude * color.deviation) * shape.place2 * spread.first / 3;
+  const double of_places = (square(amplitude) + square(uneven_colors)) * of_shape +
+                           square(least_amplitude) * moved2 * spread.first / 3;
   const double of_samples = square(least_amplitude) * color.variance * narrow.value;
   weighed.error2 = static_cast<float>(square(light) * (of_places + of_samples));
   weighed.largest2 =

@@ -1,7 +1,11 @@
 #include "tree/particle_tree.h"
 
+#include <algorithm>
 #include <bitset>
+#include <cmath>
 #include <cstring>
+
+#include "tree/node_bytes.h"
 
 namespace splotchcl {
 namespace {
@@ -19,7 +23,33 @@ std::uint64_t bits_in(const std::uint8_t* bytes, std::uint64_t first, std::uint6
   return count;
 }
 
+constexpr int parts_of_channel = 16;  // bits
+
 }  // namespace
+
+MeanColor MeanColor::of(const std::array<double, 3>& mean, double deviation, double dipole) {
+  constexpr double least = 0x1p-120;
+  MeanColor color;
+  const double largest = *std::max_element(mean.begin(), mean.end());
+  int exponent = 0;
+  std::frexp(std::max(largest, least), &exponent);
+  color.exponent = static_cast<std::int8_t>(exponent);
+  for (std::size_t c = 0; c < 3; ++c) {
+    color.channels[c] = static_cast<std::uint16_t>(
+        std::clamp(std::round(std::ldexp(mean[c], parts_of_channel - exponent)), 0.0, 65535.0));
+  }
+  color.deviation = rough_bits(deviation);
+  color.dipole = rough_bits(dipole);
+  return color;
+}
+
+std::array<float, 3> MeanColor::mean() const {
+  const float part = std::ldexp(1.0f, exponent - parts_of_channel);
+  std::array<float, 3> mean{};
+  for (std::size_t c = 0; c < 3; ++c)
+    mean[c] = part * channels[c];
+  return mean;
+}
 
 std::uint64_t TreeLevel::first_child(std::uint64_t node) const {
   return first_children[node / group] + bits_in(children, node / group * group, node);

@@ -39,6 +39,20 @@ struct TreeNode {
 };
 static_assert(sizeof(TreeNode) == 20);
 
+// What one ColorRule makes of all members of a node together, weighted by their flux.
+struct MeanColor {
+  std::uint16_t channels[3] = {};  // of the mean, in parts of 2^exponent
+  std::int8_t exponent = 0;
+  std::uint8_t deviation = 0;  // of a member's color from the mean: root mean square
+  // Of the mean of a member's color times its way from the centroid, in cells: the length. Both
+  // are those of the channel where they are largest, and of rough_bits().
+  std::uint8_t dipole = 0;
+
+  static MeanColor of(const std::array<double, 3>& mean, double deviation, double dipole);
+  std::array<float, 3> mean() const;
+};
+static_assert(sizeof(MeanColor) == 10);
+
 // Nodes of one level in Morton order. Particles of a node that lie in none of the next level are
 // loose: they follow each other in the tree's `order`.
 struct TreeLevel {
@@ -47,6 +61,7 @@ struct TreeLevel {
   std::uint64_t count = 0;
   const TreeNode* nodes = nullptr;
   const SampledField* fields = nullptr;           // of each node as many as the tree has
+  const MeanColor* colors = nullptr;              // where the tree has any
   const std::uint8_t* children = nullptr;         // a bit for each octant of the cell with a node
   const std::uint8_t* loose = nullptr;            // particles
   const std::uint64_t* first_children = nullptr;  // in the next level, of each group
@@ -85,6 +100,7 @@ struct TreeOfType {
   Vec3 origin = {{0, 0, 0}};             // the cube's lower corner, in the snapshot's lengths
   double side = 1;                       // of the cube
   std::vector<std::string> fields;       // names of scenes
+  std::optional<std::uint64_t> colors;   // ColorRule::key() of those that nodes have
   std::vector<TreeLevel> levels;         // from the root on, which is one node; empty: no particles
   const std::uint32_t* order = nullptr;  // of loose particles: their places in the snapshot
   std::uint64_t order_count = 0;

@@ -9,6 +9,7 @@ namespace splotchcl {
 
 constexpr std::size_t sampled_members = 8;
 constexpr std::size_t most_fields = 4;
+using MemberValues = std::array<float, most_fields>;
 
 // A float's bits, turned so that whole numbers have the order of the values.
 inline std::uint32_t ordered_value(float value) {

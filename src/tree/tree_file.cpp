@@ -26,12 +26,14 @@ namespace {
 // type its sections, each from a multiple of 64 bytes on; last the checksums of chunks of all that
 // comes before, and theirs.
 constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
-                           'l', ' ', 't', ' ', '4', '\n', 0,   0};
-// Of trees without nodes of the rest, a place for particles, and a sample; they are made anew.
+                           'l', ' ', 't', ' ', '5', '\n', 0,   0};
+// Of trees without nodes of the rest, a place for particles, a sample, and mean colors; they are
+// made anew.
 constexpr FileMark older_marks[] = {
     {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '1', '\n', 0, 0},
     {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '2', '\n', 0, 0},
-    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '3', '\n', 0, 0}};
+    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '3', '\n', 0, 0},
+    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '4', '\n', 0, 0}};
 constexpr std::uint64_t alignment = 64, chunk_bytes = 1U << 20,
                         most_checked_bytes = std::uint64_t{1} << 30;
 constexpr std::size_t name_bytes = 64;
@@ -47,6 +49,7 @@ struct TypeHeader {
   std::uint64_t count, bad, weight, fields, levels, order_count;
   Stored loose;   // nothing: their order alone
   Stored sample;  // with others; nothing: of few particles
+  std::uint64_t has_colors, colors;
   std::uint64_t sample_stride, others;
   double weight_of_all;
   double origin[3], side;
@@ -55,7 +58,7 @@ struct TypeHeader {
   char names[most_fields][name_bytes];
   char other_names[ParticleSample::most_others][name_bytes];
 };
-static_assert(sizeof(FileHeader) == 40 && sizeof(TypeHeader) == 848);
+static_assert(sizeof(FileHeader) == 40 && sizeof(TypeHeader) == 864);
 
 std::uint64_t key_of(const SnapshotInfo& info) {
   WordHash hash = hash_of_files(info);
@@ -74,10 +77,16 @@ std::uint64_t padded(std::uint64_t bytes) {
 }
 
 // Bytes of a level's arrays, in the order in which they are stored.
-std::array<std::uint64_t, 6> section_bytes(std::uint64_t nodes, std::uint64_t fields) {
+std::array<std::uint64_t, 7> section_bytes(std::uint64_t nodes, std::uint64_t fields,
+                                           bool has_colors) {
   const std::uint64_t groups = ceil_divide(nodes, TreeLevel::group);
-  return {nodes * sizeof(TreeNode),       nodes * fields * sizeof(SampledField), nodes, nodes,
-          groups * sizeof(std::uint64_t), groups * sizeof(std::uint64_t)};
+  return {nodes * sizeof(TreeNode),
+          nodes * fields * sizeof(SampledField),
+          has_colors ? nodes * sizeof(MeanColor) : 0,
+          nodes,
+          nodes,
+          groups * sizeof(std::uint64_t),
+          groups * sizeof(std::uint64_t)};
 }
 
 // Columns of so many particles.
@@ -139,6 +148,8 @@ TypeHeader header_of(const TreeOfType& tree, const TreeSource* particles) {
     header.weight_of_all = static_cast<double>(particles->weights.uniform_value());
   }
   if (tree.sample) take_sample(*tree.sample, header);
+  header.has_colors = tree.colors ? 1 : 0;
+  header.colors = tree.colors.value_or(0);
   for (std::size_t axis = 0; axis < 3; ++axis)
     header.origin[axis] = tree.origin.a[axis];
   header.side = tree.side;
@@ -194,7 +205,8 @@ std::uint64_t file_bytes(const std::vector<TypeHeader>& headers) {
   std::uint64_t bytes = padded(sizeof(FileHeader) + headers.size() * sizeof(TypeHeader));
   for (const TypeHeader& header : headers) {
     for (std::size_t l = 0; l < header.levels; ++l) {
-      for (const std::uint64_t section : section_bytes(header.nodes[l], header.fields))
+      for (const std::uint64_t section :
+           section_bytes(header.nodes[l], header.fields, header.has_colors != 0))
         bytes += padded(section);
     }
     for (const std::uint64_t section : particle_bytes(header))
@@ -252,9 +264,10 @@ void write_sample(const ParticleSample& sample, CheckedWriter& writer) {
 
 void write_sections(const TreeOfType& tree, const TreeSource* particles, CheckedWriter& writer) {
   for (const TreeLevel& level : tree.levels) {
-    const void* const sections[] = {level.nodes, level.fields,         level.children,
-                                    level.loose, level.first_children, level.first_loose};
-    const auto bytes = section_bytes(level.count, tree.fields.size());
+    const void* const sections[] = {level.nodes,      level.fields, level.colors,
+                                    level.children,   level.loose,  level.first_children,
+                                    level.first_loose};
+    const auto bytes = section_bytes(level.count, tree.fields.size(), tree.colors.has_value());
     for (std::size_t s = 0; s < bytes.size(); ++s) {
       writer.write(sections[s], bytes[s]);
       writer.pad();
@@ -293,7 +306,7 @@ bool is_undamaged(const MappedFile& file, std::uint64_t bytes) {
 
 bool is_possible(const TypeHeader& header) {
   return header.fields <= most_fields && header.levels <= TreeOfType::levels_at_most &&
-         header.weight <= 2 && header.loose <= Stored::with_weights &&
+         header.weight <= 2 && header.has_colors <= 1 && header.loose <= Stored::with_weights &&
          header.sample <= Stored::with_weights &&
          (header.sample == Stored::nothing || header.sample_stride > 0) &&
          header.others <= ParticleSample::most_others && header.count >= header.bad &&
@@ -363,6 +376,7 @@ std::shared_ptr<const TreeOfType> tree_of(const TypeHeader& header, Sections& se
   tree->count = header.count;
   tree->bad = header.bad;
   tree->weight = static_cast<WeightModel>(header.weight);
+  if (header.has_colors != 0) tree->colors = header.colors;
   for (std::size_t axis = 0; axis < 3; ++axis)
     tree->origin.a[axis] = header.origin[axis];
   tree->side = header.side;
@@ -371,13 +385,14 @@ std::shared_ptr<const TreeOfType> tree_of(const TypeHeader& header, Sections& se
   for (std::size_t l = 0; l < header.levels; ++l) {
     TreeLevel level;
     level.count = header.nodes[l];
-    const auto bytes = section_bytes(level.count, header.fields);
+    const auto bytes = section_bytes(level.count, header.fields, header.has_colors != 0);
     sections.take(bytes[0], level.nodes);
     sections.take(bytes[1], level.fields);
-    sections.take(bytes[2], level.children);
-    sections.take(bytes[3], level.loose);
-    sections.take(bytes[4], level.first_children);
-    sections.take(bytes[5], level.first_loose);
+    sections.take(bytes[2], level.colors);
+    sections.take(bytes[3], level.children);
+    sections.take(bytes[4], level.loose);
+    sections.take(bytes[5], level.first_children);
+    sections.take(bytes[6], level.first_loose);
     tree->levels.push_back(level);
   }
   if (header.loose == Stored::nothing) {

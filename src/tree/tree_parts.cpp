@@ -19,6 +19,8 @@ TreePart tree_part(const Frame& frame, std::size_t component, const TreeOfCompon
   made.palette.emplace(drawn.palette);
   if (part.color >= 0) made.color_places.emplace(drawn.color);
   if (part.intensity >= 0) made.intensities.emplace(drawn.intensity);
+  const ColorRule rule = {part.color, part.intensity, drawn.color, drawn.intensity, drawn.palette};
+  made.has_mean_colors = part.tree->colors == rule.key();
   const double width = frame.kernel.width * drawn.size_factor;
   made.deviation_per_h = width / std::sqrt(2.0);
   const double factor = drawn.weight == WeightModel::mass ? 1

@@ -18,9 +18,10 @@ struct TreePart {
   const DrawnComponent* drawn = nullptr;
   std::optional<FieldPlaces> color_places, intensities;  // of the fields that are used
   std::optional<PaletteWay> palette;
-  double deviation_per_h = 0;  // in lengths
-  double light_per_flux = 0;   // times pixels per length squared: the sum over pixels
-  double least_amplitude = 0;  // of absorption, over brightness
+  bool has_mean_colors = false;  // nodes have those of this frame
+  double deviation_per_h = 0;    // in lengths
+  double light_per_flux = 0;     // times pixels per length squared: the sum over pixels
+  double least_amplitude = 0;    // of absorption, over brightness
 
   const TreeOfType& tree() const { return *part->tree; }
 };

@@ -15,8 +15,6 @@
 
 namespace splotchcl {
 
-using FieldValues = std::array<float, most_fields>;
-
 struct TreeCube {
   Vec3 lower = {{0, 0, 0}};  // of the positions as their column has them
   double side = 1;
@@ -57,8 +55,8 @@ class TreeStretch {
     if (model_ == WeightModel::mass) return weight;
     return model_ == WeightModel::constant ? weight * h(i) : weight * h(i) * h(i) * h(i);
   }
-  FieldValues values(std::size_t i) const {
-    FieldValues values{};
+  MemberValues values(std::size_t i) const {
+    MemberValues values{};
     for (std::size_t f = 0; f < fields_.size(); ++f)
       values[f] = (*fields_[f])[i];
     return values;
