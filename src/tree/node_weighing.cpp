@@ -15,6 +15,9 @@ namespace {
 // Nearer to the camera than so many times their reach, or widths, nodes are opened.
 constexpr double nearest_reaches = 20, nearest_widths = 12;
 constexpr double reach_in_sigma = 7;  // no cloud is drawn farther
+// Nodes that err alike seem to err so much more (squared), near enough to the row where they do.
+constexpr float alike2 = 4;
+constexpr double pixels_of_row = 6;
 
 double square(double x) {
   return x * x;
@@ -78,7 +81,23 @@ WeighedNode NodeWeigher::weigh(const TreePart& part, const TreeItem& item,
     return weighed;
   }
   weigh_error(part, item, level, *projected, weighed);
+  if (is_along_cells(offset, projected->pixels_per_length, reach)) {
+    weighed.error2 *= alike2;
+    weighed.largest2 *= alike2;
+  }
   return weighed;
+}
+
+// Whether a plane of cells is seen from its edge here: nodes on it lie behind each other in one row
+// of pixels, and err alike.
+bool NodeWeigher::is_along_cells(const Vec3& offset, double pixels_per_length, double reach) const {
+  const bool is_orthographic = frame_.projection == Projection::orthographic;
+  const double distance = std::abs(boost::qvm::dot(offset, frame_.camera.forward));
+  return std::any_of(offset.a, offset.a + 3, [&](const double& along) {
+    const auto axis = static_cast<std::size_t>(&along - offset.a);
+    const double away = is_orthographic ? distance * frame_.camera.forward.a[axis] : along;
+    return std::abs(away) * pixels_per_length < reach * pixels_per_length + pixels_of_row;
+  });
 }
 
 // Members would lie at other depths, and be larger or smaller, than the node.

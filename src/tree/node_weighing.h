@@ -48,6 +48,7 @@ class NodeWeigher {
   bool is_at_limit(double depth, double reach) const;
   bool is_beyond_limits(double depth) const;
   bool is_unseen(const Projected& at, double reach, double widest) const;
+  bool is_along_cells(const Vec3& offset, double pixels_per_length, double reach) const;
   void weigh_error(const TreePart& part, const TreeItem& item, std::size_t level,
                    const Projected& at, WeighedNode& weighed) const;
 
