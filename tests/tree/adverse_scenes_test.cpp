@@ -12,6 +12,11 @@ namespace {
 
 class AdverseScenes : public PictureTest {
  protected:
+  // With mean colors in the tree and without.
+  static void expect_kept(const Frame& frame, const Matter& matter, const std::string& what) {
+    expect_kept(frame, tree_of(matter), what);
+    expect_kept(frame, tree_of(matter, frame), what + ", mean colors");
+  }
   static void expect_kept(Frame frame, const std::shared_ptr<const TreeOfType>& tree,
                           const std::string& what) {
     plant(frame, tree);
@@ -50,9 +55,9 @@ class AdverseScenes : public PictureTest {
   }
 
   // What a node of all of it errs by in its worst pixel, over the standard deviation it seems to.
-  static double deviations_of_node(const Matter& matter) {
+  static double deviations_of_node(const Matter& matter, bool has_colors) {
     Frame frame = seen_from(matter, {{0.5, -3, 0.5}}, Projection::orthographic, 48);
-    plant(frame, tree_of(matter));
+    plant(frame, has_colors ? tree_of(matter, frame) : tree_of(matter));
     constexpr double keeps_all = 1e6, deviations_of_estimate = 6;
     const TreeCut cut = cut_tree(frame, {keeps_all, {}, 0});
     EXPECT_EQ(cut.nodes, 1U);
@@ -78,18 +83,16 @@ Matter lattice(int side, const std::function<double(int, int, int)>& color) {
 
 TEST_F(AdverseScenes, LatticesAlongTheirAxes) {
   const Matter matter = lattice(36, [](int, int, int) { return 1.0; });
-  const auto tree = tree_of(matter);
   for (const Vec3& from : {Vec3{{0.5, -3, 0.5}}, Vec3{{-3, 0.5, 0.5}}, Vec3{{3, 3, 0.5}}}) {
-    expect_kept(seen_from(matter, from, Projection::orthographic), tree, "orthographic");
-    expect_kept(seen_from(matter, from, Projection::perspective), tree, "perspective");
+    expect_kept(seen_from(matter, from, Projection::orthographic), matter, "orthographic");
+    expect_kept(seen_from(matter, from, Projection::perspective), matter, "perspective");
   }
 }
 
 TEST_F(AdverseScenes, FieldsThatAlternateFromParticleToParticle) {
   const Matter matter =
       lattice(32, [](int x, int y, int z) { return (x + y + z) % 2 == 0 ? 0.14 : 7.0; });
-  expect_kept(seen_from(matter, {{0.5, -3, 0.5}}, Projection::orthographic), tree_of(matter),
-              "alternating");
+  expect_kept(seen_from(matter, {{0.5, -3, 0.5}}, Projection::orthographic), matter, "alternating");
 }
 
 TEST_F(AdverseScenes, SheetsSeenFromTheirEdgeAndFromTheirFace) {
@@ -99,9 +102,8 @@ TEST_F(AdverseScenes, SheetsSeenFromTheirEdgeAndFromTheirFace) {
   for (int i = 0; i < 50000; ++i)
     matter.add(uniform(random), 0.5 + 1e-3 * uniform(random), uniform(random), 0.004, 1,
                std::exp(uniform(random)));
-  const auto tree = tree_of(matter);
   for (const Vec3& from : {Vec3{{0.5, -3, 0.5}}, Vec3{{-3, 0.5, 0.5}}, Vec3{{-2, -2, 1}}})
-    expect_kept(seen_from(matter, from, Projection::perspective), tree, "sheet");
+    expect_kept(seen_from(matter, from, Projection::perspective), matter, "sheet");
 }
 
 TEST_F(AdverseScenes, TwoClumpsAstrideAnEdgeOfPixelsAndOfCells) {
@@ -116,9 +118,8 @@ TEST_F(AdverseScenes, TwoClumpsAstrideAnEdgeOfPixelsAndOfCells) {
     }
     matter.add(0, 0, 0, 0.01, 1, 1);
     matter.add(1, 1, 1, 0.01, 1, 1);
-    const auto tree = tree_of(matter);
     for (const double moved : {0.0, 0.003, 0.01}) {
-      expect_kept(seen_from(matter, {{0.5 + moved, -3, 0.5}}, Projection::orthographic), tree,
+      expect_kept(seen_from(matter, {{0.5 + moved, -3, 0.5}}, Projection::orthographic), matter,
                   "clumps " + std::to_string(apart));
     }
   }
@@ -132,7 +133,7 @@ TEST_F(AdverseScenes, PalettesOfSteps) {
   for (std::size_t k = 32; k < knots.size(); ++k)
     knots[k] = Rgb{1, 0.5f, 0};
   knots[20] = Rgb{0, 20, 0};
-  expect_kept(frame, tree_of(matter), "steps");
+  expect_kept(frame, matter, "steps");
 }
 
 TEST_F(AdverseScenes, MembersOfWhichFewGlow) {
@@ -143,7 +144,7 @@ TEST_F(AdverseScenes, MembersOfWhichFewGlow) {
     Frame frame = frame_of(matter, 64, 64);
     frame.kernel.footprint_pixels = 1;
     frame.components.front().palette.emission = {Rgb{0, 0, 0}, Rgb{5, 2, 1}};
-    expect_kept(frame, tree_of(matter), "one in " + std::to_string(one_in));
+    expect_kept(frame, matter, "one in " + std::to_string(one_in));
   }
 }
 
@@ -156,9 +157,11 @@ TEST_F(AdverseScenes, NodeWithFewCompactMembersSeemsToErrAsItDoes) {
   Matter matter;
   for (const auto& [x, y, z, h] : members)
     matter.add(0.5 + 0.01 * x, 0.5 + 0.01 * y, 0.5 + 0.01 * z, 0.01 * h, 1, 1);
-  const double deviations = deviations_of_node(matter);
-  EXPECT_LE(deviations, 6);
-  EXPECT_GE(deviations, 0.1);
+  for (const bool has_colors : {false, true}) {
+    const double deviations = deviations_of_node(matter, has_colors);
+    EXPECT_LE(deviations, 6);
+    EXPECT_GE(deviations, 0.1);
+  }
 }
 
 // Random members, most of them in few places, of any widths, masses and colors.
@@ -189,14 +192,17 @@ Matter some_members(std::mt19937_64& random) {
 // By at most so many standard deviations of their estimate, which NodeLimits counts with.
 TEST_F(AdverseScenes, NodesErrAsTheySeemTo) {
   std::mt19937_64 random(57);
-  for (int n = 0; n < 30; ++n)
-    EXPECT_LE(deviations_of_node(some_members(random)), 6) << "node " << n;
+  for (int n = 0; n < 30; ++n) {
+    const Matter members = some_members(random);
+    for (const bool has_colors : {false, true})
+      EXPECT_LE(deviations_of_node(members, has_colors), 6) << "node " << n;
+  }
 }
 
 TEST_F(AdverseScenes, AreNotAllDrawnFromParticles) {
   const Matter matter = clumps(60000, 54);
   served() = 0;
-  expect_kept(frame_of(matter, 32, 32), tree_of(matter), "clumps");
+  expect_kept(frame_of(matter, 32, 32), matter, "clumps");
   EXPECT_GT(served(), 0);
 }
 

@@ -1,7 +1,9 @@
 #include "tree/build_tree.h"
 
 #include "scene/particle_columns.h"
+#include "scene/scalar_map.h"
 #include "testing.h"
+#include "tree/node_bytes.h"
 #include "tree/sampled_field.h"
 #include "tree/tree_scenes.h"
 
@@ -21,6 +23,45 @@ void collect(const TreeOfType& tree, std::size_t level, std::uint64_t node,
   }
 }
 
+// Of members' colors, found from the particles.
+struct ColorSums {
+  double flux = 0;
+  std::array<double, 3> color{}, square{}, place{};
+  std::array<std::array<double, 3>, 3> product{};  // of channel and axis
+
+  void add(const Matter& matter, std::size_t i, const DrawnComponent& drawn) {
+    const auto mass = static_cast<double>(matter.mass[i]);
+    const auto rgb = sample_knots(drawn.palette.emission,
+                                  normalized(static_cast<double>(matter.color[i]), drawn.color));
+    flux += mass;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const auto at = static_cast<double>(matter.position[3 * i + a]);
+      color[a] += mass * rgb[a];
+      square[a] += mass * rgb[a] * rgb[a];
+      place[a] += mass * at;
+      for (std::size_t c = 0; c < 3; ++c)
+        product[c][a] += mass * rgb[c] * at;
+    }
+  }
+  std::array<double, 3> mean() const { return {color[0] / flux, color[1] / flux, color[2] / flux}; }
+  double deviation() const {
+    double largest = 0;
+    for (std::size_t c = 0; c < 3; ++c)
+      largest = std::max(largest, square[c] / flux - mean()[c] * mean()[c]);
+    return std::sqrt(largest);
+  }
+  double dipole() const {
+    double largest = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      double squares = 0;
+      for (std::size_t a = 0; a < 3; ++a)
+        squares += std::pow(product[c][a] / flux - mean()[c] * place[a] / flux, 2);
+      largest = std::max(largest, squares);
+    }
+    return std::sqrt(largest);
+  }
+};
+
 template <class T>
 bool are_same(const T* a, const T* b, std::uint64_t count) {
   return std::memcmp(a, b, static_cast<std::size_t>(count) * sizeof(T)) == 0;
@@ -33,11 +74,55 @@ void expect_same(const TreeOfType& a, const TreeOfType& b) {
     EXPECT_TRUE(are_same(a.levels[l].nodes, b.levels[l].nodes, a.levels[l].count));
     EXPECT_TRUE(
         are_same(a.levels[l].fields, b.levels[l].fields, a.levels[l].count * a.fields.size()));
+    EXPECT_EQ(a.levels[l].colors != nullptr, b.levels[l].colors != nullptr);
+    EXPECT_TRUE(a.levels[l].colors == nullptr ||
+                are_same(a.levels[l].colors, b.levels[l].colors, a.levels[l].count));
     EXPECT_TRUE(are_same(a.levels[l].children, b.levels[l].children, a.levels[l].count));
     EXPECT_TRUE(are_same(a.levels[l].loose, b.levels[l].loose, a.levels[l].count));
   }
   ASSERT_EQ(a.order_count, b.order_count);
   EXPECT_TRUE(are_same(a.order, b.order, a.order_count));
+}
+
+// Of their mean, dark members included, and of how far they lie on one side.
+TEST(BuildTree, KnowsTheMeanColorOfAllMembers) {
+  Matter matter = clumps(3000, 6, 2);
+  std::mt19937_64 random(6);
+  for (float& mass : matter.mass)
+    mass = static_cast<float>(random() % 4);
+  const Frame frame = frame_of(matter, 8, 8);
+  const auto tree = tree_of(matter, frame);
+  const DrawnComponent& drawn = frame.components.front();
+  for (std::size_t level = 0; level < tree->levels.size(); ++level) {
+    const TreeLevel& nodes = tree->levels[level];
+    for (std::uint64_t node = 0; node < nodes.count; ++node) {
+      std::vector<std::uint32_t> places;
+      collect(*tree, level, node, places);
+      ColorSums sums;
+      for (const std::uint32_t place : places)
+        sums.add(matter, place, drawn);
+      if (!(sums.flux > 0)) continue;
+      const MeanColor& color = nodes.colors[node];
+      const auto mean = sums.mean();
+      const double largest = *std::max_element(mean.begin(), mean.end());
+      for (std::size_t c = 0; c < 3; ++c)
+        ASSERT_NEAR(static_cast<double>(color.mean()[c]), mean[c], 1e-4 * largest);
+      const double cell = tree->side * std::exp2(-nodes.nodes[node].cell_level(level));
+      EXPECT_NEAR(rough_of_bits(color.deviation), sums.deviation(), 0.05 * sums.deviation() + 1e-5);
+      EXPECT_NEAR(cell * rough_of_bits(color.dipole), sums.dipole(),
+                  0.05 * sums.dipole() + 1e-5 * cell);
+    }
+  }
+}
+
+TEST(MeanColor, HoldsColorsOfAnySize) {
+  for (const double brightest : {1e-30, 1e-3, 1.0, 1e6}) {
+    const MeanColor color = MeanColor::of({brightest, 0.3 * brightest, 0}, 0, 0);
+    EXPECT_NEAR(static_cast<double>(color.mean()[0]), brightest, 2e-5 * brightest);
+    EXPECT_NEAR(static_cast<double>(color.mean()[1]), 0.3 * brightest, 2e-5 * brightest);
+    EXPECT_EQ(color.mean()[2], 0);
+  }
+  EXPECT_EQ(MeanColor::of({0, 0, 0}, 0, 0).mean(), (std::array<float, 3>{}));
 }
 
 TEST(BuildTree, HoldsEachParticleOnce) {
@@ -71,7 +156,8 @@ TEST(BuildTree, KeepsTheFluxOnEveryLevel) {
 
 TEST(BuildTree, HasTheSameBitsHoweverManyParticlesAreHeld) {
   const Matter matter = clumps(30000, 5);
-  const TreeSource source = source_of(matter);
+  TreeSource source = source_of(matter);
+  source.colors = ColorRule{0, -1, {Scaling::log, -2, 2}, {}, {"", {{0, 0, 1}, {1, 0, 0}}, {}}};
   expect_same(build_tree(source, {4, 1000}), build_tree(source, {4, 0}));
 }
 

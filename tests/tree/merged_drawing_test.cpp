@@ -59,7 +59,9 @@ Frame random_frame(std::uint64_t seed) {
                                     Absorption::Kind::factor};
   gas.absorption.kind = kinds[seed % 3];
   if (gas.absorption.kind == Absorption::Kind::factor) gas.absorption.factor = gas.brightness;
-  plant(frame, tree_of(matter, seed % 4 == 0 ? 8 : 4));
+  const unsigned least = seed % 4 == 0 ? 8 : 4;
+  const bool has_colors = seed / 4 % 2 == 0;
+  plant(frame, has_colors ? tree_of(matter, frame, least) : tree_of(matter, least));
   return frame;
 }
 
@@ -117,7 +119,7 @@ TEST_F(MergedDrawings, KeepTheToleranceAroundPeaksOfLightAndColor) {
     for (const double tolerance : {1e-2, 1e-3}) {
       Frame frame = frame_of(matter, 40, 30);
       frame.tolerance = tolerance;
-      plant(frame, tree_of(matter));
+      plant(frame, tolerance < 5e-3 ? tree_of(matter, frame) : tree_of(matter));
       const auto drawing = draw_from_tree(frame);
       if (!drawing) continue;
       ++served;
@@ -136,6 +138,20 @@ TEST_F(MergedDrawings, TakeFewerSplatsThanThereAreParticles) {
   ASSERT_TRUE(drawing);
   EXPECT_LT(drawing->nodes + drawing->particles, matter.count() / 4);
   EXPECT_LE(error_of(drawing->image, frame), 1);
+}
+
+TEST_F(MergedDrawings, TakeFewerSplatsWhereNodesHaveTheFramesColors) {
+  const Matter matter = clumps(200000, 22, 1);
+  Frame frame = frame_of(matter, 40, 30);
+  const auto splats = [&] {
+    const TreeCut cut = cut_tree(frame, {frame.tolerance, {}});
+    return cut.nodes + cut.particles;
+  };
+  plant(frame, tree_of(matter, frame));
+  const std::uint64_t with_colors = splats();
+  frame.components.front().color.maximum *= 1.001;
+  const std::uint64_t with_others = splats();
+  EXPECT_LT(with_colors, with_others * 3 / 4);
 }
 
 TEST_F(MergedDrawings, DrawPeriodicImagesNearestToACenter) {

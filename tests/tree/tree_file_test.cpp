@@ -15,6 +15,7 @@ class TreeFile : public ::testing::Test {
   TreeFile() {
     const Matter matter = clumps(5000, 11);
     source_ = source_of(matter);
+    source_.colors = ColorRule{0, -1, {Scaling::log, -2, 2}, {}, {"", {{0, 0, 1}, {1, 0, 0}}, {}}};
     tree_ = build_tree(source_, {});
     TestSnapshot content;
     content.counts[0] = 5000;
@@ -54,10 +55,12 @@ TEST_F(TreeFile, HoldsWhatWasWritten) {
   EXPECT_EQ(read.count, tree_.count);
   EXPECT_EQ(read.side, tree_.side);
   EXPECT_EQ(read.fields, tree_.fields);
+  EXPECT_EQ(read.colors, source_.colors->key());
   ASSERT_EQ(read.levels.size(), tree_.levels.size());
   const TreeLevel& last = read.levels.back();
   EXPECT_EQ(last.count, tree_.levels.back().count);
   EXPECT_EQ(last.nodes[last.count - 1].flux, tree_.levels.back().nodes[last.count - 1].flux);
+  EXPECT_EQ(last.colors[last.count - 1].mean(), tree_.levels.back().colors[last.count - 1].mean());
   EXPECT_EQ(read.order[tree_.order_count - 1], tree_.order[tree_.order_count - 1]);
 }
 

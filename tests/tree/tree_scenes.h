@@ -98,6 +98,15 @@ inline Frame frame_of(const Matter& matter, int width, int height) {
   return frame;
 }
 
+// The same of a tree whose nodes have the mean colors that the frame shows.
+inline std::shared_ptr<const TreeOfType> tree_of(const Matter& matter, const Frame& frame,
+                                                 unsigned least = 4) {
+  TreeSource source = source_of(matter);
+  const DrawnComponent& drawn = frame.components.front();
+  source.colors = ColorRule{0, -1, drawn.color, drawn.intensity, drawn.palette};
+  return std::make_shared<const TreeOfType>(build_tree(source, {least, 0}));
+}
+
 inline void plant(Frame& frame, const std::shared_ptr<const TreeOfType>& tree) {
   auto of_component = std::make_shared<TreeOfComponent>();
   of_component->parts = {{tree, 0, 0, -1}};
