@@ -10,6 +10,8 @@
 
 namespace splotchcl {
 
+class Column;
+
 // What makes the values of a column when they are first wanted. Devices make those of the kinds
 // that they know by themselves, to the same bits, so that the host need not.
 class ColumnSource {
@@ -18,9 +20,11 @@ class ColumnSource {
   virtual std::size_t size() const = 0;  // values
   // Values [begin, end); each is the same however it is asked for. Several threads may ask.
   virtual void make(std::size_t begin, std::size_t end, float* values) const = 0;
-  virtual std::vector<float> make_all() const;
+  virtual Column make_all() const;
   // All of them are too many to be held: who can asks for them stretch by stretch.
   virtual bool is_streamed() const { return false; }
+  // They lie somewhere as they are: who wants few copies these, and not all.
+  virtual bool is_copy() const { return false; }
 };
 
 // Values of one quantity: one per particle, one for all, or none at all.

@@ -380,11 +380,11 @@ void InterpolatedColumn::make(std::size_t begin, std::size_t end, float* values)
   interpolate(interpolation_, begin, end, values);
 }
 
-std::vector<float> InterpolatedColumn::make_all() const {
+Column InterpolatedColumn::make_all() const {
   std::vector<float> values(size());
   for_blocks(values.size(), values_per_block,
              [&](std::size_t begin, std::size_t end) { make(begin, end, values.data() + begin); });
-  return values;
+  return Column::owning(std::move(values));
 }
 
 Column column_between(ColumnBetween interpolation) {

@@ -101,7 +101,7 @@ class InterpolatedColumn final : public ColumnSource {
   const ColumnBetween& interpolation() const { return interpolation_; }
   std::size_t size() const override;
   void make(std::size_t begin, std::size_t end, float* values) const override;
-  std::vector<float> make_all() const override;  // on all cores
+  Column make_all() const override;  // on all cores
 
  private:
   ColumnBetween interpolation_;

@@ -186,13 +186,42 @@ std::optional<Column> in_place(const StoredColumn& column) {
   return Column(part.file, reinterpret_cast<const float*>(first), column.size());
 }
 
+// As it is, file after file.
+bool lies_in_files(const StoredColumn& column) {
+  return column.origin == zero &&
+         std::all_of(column.parts.begin(), column.parts.end(), can_point_into_file);
+}
+
 // Files that hold what is wanted, one after the other: a copy would serve frames that follow, and
 // make the first wait.
 bool is_better_left(const StoredColumn& column) {
   constexpr std::size_t most_copied_bytes = std::size_t{256} << 20;
-  return column.size() * sizeof(float) > most_copied_bytes && column.origin == zero &&
-         std::all_of(column.parts.begin(), column.parts.end(), can_point_into_file);
+  return column.size() * sizeof(float) > most_copied_bytes && lies_in_files(column);
 }
+
+Column copied(const StoredColumn& column) {
+  constexpr std::size_t values_at_once = std::size_t{1} << 20;
+  LargeVector<float> values(column.size());
+  for_blocks(values.size(), values_at_once, [&](std::size_t first, std::size_t last) {
+    column.make(first, last, values.data() + first);
+  });
+  return owning_column(std::move(values));
+}
+
+// A frame that is drawn of a tree looks at few of them.
+class CopyOfFiles final : public ColumnSource {
+ public:
+  explicit CopyOfFiles(StoredColumn column) : column_(std::move(column)) {}
+  std::size_t size() const override { return column_.size(); }
+  bool is_copy() const override { return true; }
+  void make(std::size_t begin, std::size_t end, float* values) const override {
+    column_.make(begin, end, values);
+  }
+  Column make_all() const override { return copied(column_); }
+
+ private:
+  StoredColumn column_;
+};
 
 Column converted(StoredColumn column, bool is_streamed) {
   const std::size_t size = column.size();
@@ -202,12 +231,9 @@ Column converted(StoredColumn column, bool is_streamed) {
           column.make(begin, end, out);
         });
   }
-  constexpr std::size_t values_at_once = std::size_t{1} << 20;
-  LargeVector<float> values(size);
-  for_blocks(size, values_at_once, [&](std::size_t first, std::size_t last) {
-    column.make(first, last, values.data() + first);
-  });
-  return owning_column(std::move(values));
+  if (lies_in_files(column))
+    return Column::made_by(std::make_shared<const CopyOfFiles>(std::move(column)));
+  return copied(column);
 }
 
 }  // namespace

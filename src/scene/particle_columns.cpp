@@ -81,7 +81,8 @@ ColumnStretch::ColumnStretch(const Column& column, std::size_t begin, std::size_
     : begin_(begin) {
   if (!column.is_array()) {
     same_ = column[0];
-  } else if (const auto source = column.source(); source && source->is_streamed()) {
+  } else if (const auto source = column.source();
+             source && (source->is_streamed() || source->is_copy())) {
     made_.reset(new float[end - begin]);  // not cleared before
     source->make(begin, end, made_.get());
     values_ = made_.get();
@@ -253,8 +254,8 @@ class MadeOnce {
   const std::shared_ptr<const ColumnSource>& source() const { return source_; }
   const float* data() const {
     std::call_once(once_, [this] {
-      values_ = source_->make_all();
-      made_ = values_.data();
+      all_ = source_->make_all();
+      made_ = all_.data();
     });
     return made_;
   }
@@ -272,17 +273,17 @@ class MadeOnce {
  private:
   std::shared_ptr<const ColumnSource> source_;
   mutable std::once_flag once_;
-  mutable std::vector<float> values_;
+  mutable Column all_;
   mutable std::atomic<const float*> made_{nullptr};
   mutable std::atomic<std::size_t> asked_{0};
 };
 
 }  // namespace
 
-std::vector<float> ColumnSource::make_all() const {
+Column ColumnSource::make_all() const {
   std::vector<float> values(size());
   make(0, values.size(), values.data());
-  return values;
+  return Column::owning(std::move(values));
 }
 
 Column Column::made_by(std::shared_ptr<const ColumnSource> source) {
