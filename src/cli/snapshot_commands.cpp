@@ -103,7 +103,7 @@ void add_tree(CLI::App& app, Run& run, Console& console) {
                         "its order: 20 bytes each and more, so that what lies together in space "
                         "is read together"));
   sub->footer(
-      "Writes SNAPSHOT.splotchcl_tree, some 10 bytes per particle. Scenes with kernel.footprint "
+      "Writes SNAPSHOT.splotchcl_tree, some 14 bytes per particle. Scenes with kernel.footprint "
       "are\n"
       "drawn from it where many particles lie over a pixel; --tree of render and movie says when.\n"
       "The tree is ignored once a file of the snapshot has changed.\n"

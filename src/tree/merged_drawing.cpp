@@ -18,10 +18,10 @@
 namespace splotchcl {
 namespace {
 
-// Fewer particles over a pixel do not gain. A splat of a cut takes as long as five particles, those
-// by which it is verified included, and as long again where it fails.
+// Fewer particles over a pixel do not gain. A splat of a cut takes as long as 24 to 34 particles,
+// those by which it is verified included, and as long again where it fails.
 constexpr double least_over_pixel = 50;
-constexpr double most_that_pay = 1.0 / 16, most_that_pay_again = 1.0 / 32;  // over particles
+constexpr double most_that_pay = 1.0 / 24, most_that_pay_again = 1.0 / 48;  // over particles
 constexpr double most_splats_again = 1.0 / 8;
 constexpr double part_of_nodes = 0.7;       // of the tolerance
 constexpr double verified_finer = 4;        // error of the cut to which a picture is compared

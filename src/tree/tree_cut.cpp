@@ -311,11 +311,13 @@ class Cutter {
     walk.reached = std::move(children);
   }
 
-  // For those of later passes, too: room that is not used takes no memory.
+  // For those of later passes, too: room that is not used takes no memory, and moving nodes takes
+  // long.
   static void make_room(KnownLevel& level, std::size_t count) {
-    level.items.reserve(2 * count);
-    level.weighed.reserve(2 * count);
-    level.first_children.reserve(2 * count);
+    constexpr std::size_t room = 4;
+    level.items.reserve(room * count);
+    level.weighed.reserve(room * count);
+    level.first_children.reserve(room * count);
   }
 
   void look_at_children(Walk& walk, std::size_t level_number, std::uint32_t opened) {
