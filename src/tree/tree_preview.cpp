@@ -1,6 +1,7 @@
 #include "tree/tree_preview.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tree/tree_cut.h"
@@ -9,7 +10,9 @@ namespace splotchcl {
 namespace {
 
 constexpr double least_footprint_pixels = 0.5;
-constexpr double finer = 1.6, most_error = 1e6, least_error = 1e-7;
+constexpr double most_error = 1e6, least_error = 1e-7;
+// Splats are about as many as this power of the error.
+constexpr double power_of_error = -0.8, largest_step = 64, as_good_as_the_same = 1.1;
 
 std::uint64_t splats_of(const TreeCut& cut) {
   return cut.nodes + cut.particles;
@@ -25,22 +28,32 @@ std::optional<Frame> TreePreview::of(const Frame& frame, std::uint64_t most_spla
       std::all_of(seen.components.begin(), seen.components.end(),
                   [&](const DrawnComponent& component) { return is_served(seen, component); });
   if (!is_possible) return std::nullopt;
-  TreeCut cut = cut_tree(seen, {error_, {}, 0});
-  while (splats_of(cut) > most_splats) {
-    error_ *= finer;
-    if (error_ > most_error) {
-      error_ = 1;
-      return std::nullopt;
+  // The largest error that is known to take too many splats, and the least that fits.
+  double too_many = least_error;
+  std::optional<double> fits;
+  std::optional<TreeCut> fitting;
+  while (true) {
+    TreeCut cut = cut_tree(seen, {error_, {}, 0});
+    const auto splats = static_cast<double>(splats_of(cut));
+    const auto most = static_cast<double>(most_splats);
+    if (splats <= most) {
+      const bool is_enough = splats >= most / 2 || cut.nodes == 0;
+      fits = error_;
+      fitting = std::move(cut);
+      if (is_enough) break;
+    } else {
+      too_many = error_;
     }
-    cut = cut_tree(seen, {error_, {}, 0});
+    if (fits ? *fits < as_good_as_the_same * too_many : too_many >= most_error) break;
+    const double step = std::pow(splats / (0.7 * most), -1 / power_of_error);
+    error_ *= std::clamp(step, 1 / largest_step, largest_step);
+    error_ = std::clamp(error_, least_error, most_error);
+    if (error_ <= too_many || (fits && error_ >= *fits))
+      error_ = fits ? std::sqrt(too_many * *fits) : most_error;
   }
-  while (splats_of(cut) < most_splats / 2 && error_ > least_error) {
-    TreeCut next = cut_tree(seen, {error_ / finer, {}, 0});
-    if (splats_of(next) > most_splats) break;
-    error_ /= finer;
-    cut = std::move(next);
-  }
-  return std::move(cut.frame);
+  error_ = fits.value_or(1);
+  if (!fitting) return std::nullopt;
+  return std::move(fitting->frame);
 }
 
 }  // namespace splotchcl

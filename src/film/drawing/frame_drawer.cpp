@@ -205,9 +205,8 @@ struct FrameDrawer::State {
   }
 
   // Of a frame with a tree of merged particles.
-  Image draw_roughly(const Frame& frame, std::uint64_t splats) {
+  Image draw_roughly(const Frame& frame, std::uint64_t splats, TreePreview& preview) const {
     RenderStats ignored;
-    TreePreview preview;
     const std::optional<Frame> nodes = preview.of(frame, splats);
     return draw_alone(nodes ? *nodes : frame, ignored);
   }
@@ -216,7 +215,10 @@ struct FrameDrawer::State {
     constexpr std::uint64_t rough_splats = 200000;
     LooseDrawing loose;
     loose.serves = [this](const Frame& frame) { return may_draw_tree(frame); };
-    loose.draw_roughly = [this](const Frame& frame) { return draw_roughly(frame, rough_splats); };
+    loose.draw_roughly = [this](const Frame& frame) {
+      TreePreview preview;
+      return draw_roughly(frame, rough_splats, preview);
+    };
     return loose;
   }
 
@@ -224,11 +226,12 @@ struct FrameDrawer::State {
   Image draw_for_tone(const Frame& view, DrawnFrame& drawn) {
     if (!may_draw_tree(view)) return draw_view(view, drawn);
     constexpr std::uint64_t splats_of_pixel = 4;
-    return draw_roughly(view, splats_of_pixel * static_cast<std::uint64_t>(view.crop.width) *
-                                  static_cast<std::uint64_t>(view.crop.height));
+    const auto pixels =
+        static_cast<std::uint64_t>(view.crop.width) * static_cast<std::uint64_t>(view.crop.height);
+    return draw_roughly(view, splats_of_pixel * pixels, tone_preview);
   }
 
-  Image draw_alone(const Frame& view, RenderStats& total) {
+  Image draw_alone(const Frame& view, RenderStats& total) const {
     const QuietErrors quiet;
     RenderStats stats;
     Image image = draw_with_device(view, stats);
@@ -323,6 +326,7 @@ struct FrameDrawer::State {
   PictureLight light;
   PlanOptions plan_options;
   TreeUse tree = TreeUse::automatic;
+  TreePreview tone_preview;  // every process of a film draws the same frames for tone, in order
   std::shared_future<std::shared_ptr<Renderer>> renderer;  // none: the reference draws
 };
 
