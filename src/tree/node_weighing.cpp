@@ -115,19 +115,26 @@ bool NodeWeigher::is_behind(const Vec3& from, double reach) const {
 // member's own.
 bool NodeWeigher::is_at_limit(double depth, double reach) const {
   const double within = 1.01 * reach;
-  const double nearest = frame_.near_limit.value_or(0);
+  const std::optional<double> near_limit = limit_before();
+  const double nearest = near_limit.value_or(0);
   const auto [near_length, far_length] = frame_.fade;
   if (near_length > 0 && depth + within > nearest && depth - within < nearest + near_length)
     return true;
   if (far_length > 0 && depth - within < *frame_.far_limit &&
       depth + within > *frame_.far_limit - far_length)
     return true;
-  if (frame_.near_limit && std::abs(depth - *frame_.near_limit) <= within) return true;
+  if (near_limit && std::abs(depth - *near_limit) <= within) return true;
   return frame_.far_limit && std::abs(depth - *frame_.far_limit) <= within;
 }
 bool NodeWeigher::is_beyond_limits(double depth) const {
-  return (frame_.near_limit && depth < *frame_.near_limit) ||
-         (frame_.far_limit && depth > *frame_.far_limit);
+  const std::optional<double> near_limit = limit_before();
+  return (near_limit && depth < *near_limit) || (frame_.far_limit && depth > *frame_.far_limit);
+}
+
+// Of parallel views the camera itself, where none is set: what is behind it is not drawn.
+std::optional<double> NodeWeigher::limit_before() const {
+  if (!frame_.near_limit && frame_.projection == Projection::orthographic) return 0;
+  return frame_.near_limit;
 }
 
 bool NodeWeigher::is_unseen(const Projected& at, double reach, double widest) const {

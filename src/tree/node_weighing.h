@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "scene/projection.h"
@@ -47,6 +48,7 @@ class NodeWeigher {
   bool is_behind(const Vec3& from, double reach) const;
   bool is_at_limit(double depth, double reach) const;
   bool is_beyond_limits(double depth) const;
+  std::optional<double> limit_before() const;
   bool is_unseen(const Projected& at, double reach, double widest) const;
   bool is_along_cells(const Vec3& offset, double pixels_per_length, double reach) const;
   void weigh_error(const TreePart& part, const TreeItem& item, std::size_t level,

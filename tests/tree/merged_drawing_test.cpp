@@ -102,6 +102,36 @@ TEST_F(MergedDrawings, KeepTheToleranceForALatticeAlongTheView) {
   }
 }
 
+// Nodes across the camera's plane are opened: their members behind it are not drawn.
+TEST_F(MergedDrawings, KeepTheToleranceForACameraOfParallelViewsAmidTheParticles) {
+  std::mt19937_64 random(23);
+  std::normal_distribution<double> normal;
+  Matter matter = clumps(40000, 23);
+  for (int i = 0; i < 40000; ++i) {
+    matter.add(0.55 + 0.02 * normal(random), 0.5 + 0.02 * normal(random),
+               0.45 + 0.02 * normal(random), 0.004, 1, 1);
+  }
+  int served = 0;
+  for (const double y : {0.49, 0.5, 0.51}) {
+    Frame frame = frame_of(matter, 40, 30);
+    Camera camera;
+    camera.position = {{0.5, y, 0.5}};
+    camera.look_at = {{0.6, 1, 0.4}};
+    camera.sky = {{0, 0, 1}};
+    camera.projection = Projection::orthographic;
+    frame.camera = make_camera_frame(camera, frame.width, frame.height);
+    frame.projection = camera.projection;
+    frame.kernel.footprint_pixels = 1;
+    frame.components.front().brightness = 0.1;
+    plant(frame, tree_of(matter, frame));
+    const auto drawing = draw_from_tree(frame);
+    if (!drawing) continue;
+    ++served;
+    EXPECT_LE(error_of(drawing->image, frame), 1) << "y = " << y;
+  }
+  EXPECT_GT(served, 1);
+}
+
 // Hot in the middle, so that nodes around it carry heat outwards, all of them alike.
 TEST_F(MergedDrawings, KeepTheToleranceAroundPeaksOfLightAndColor) {
   int served = 0;
