@@ -65,23 +65,23 @@ class ParticleType:
         numpy.ndarray
             float32 of shape (N,), or (N, 3) for vectors, read-only and without a copy where the
             file allows it. Positions that the file holds in double precision are float64.
-            Identifiers of a file are exact: "id" is uint64, "halo_id" int64.
+            Identifiers are exact: "id" is uint64, "halo_id" int64.
 
         Raises
         ------
         UsageError, DataError
             For a field that the type does not have, naming those that it has, and for identifiers
-            that the file has as no whole numbers.
+            that are no whole numbers.
         """
         if not isinstance(field, str):
             raise UsageError(f"field {field!r}: expected a name, one of {', '.join(self.fields)}")
         name = self._canonical_name(field)
-        is_of_arrays = isinstance(self._source, _core.ParticleArrays)  # which are floats already
-        if name in _IDENTIFIERS and name in self.fields and not is_of_arrays:
+        if name in _IDENTIFIERS and name in self.fields:
             exact: np.ndarray[Any, Any] = np.asarray(
                 self._source.read_integers(self._number, field)
             )
             return exact.view(_IDENTIFIERS[name])
+        is_of_arrays = isinstance(self._source, _core.ParticleArrays)
         if name == "mass" and name not in self and self._described["mass"] is None:
             raise UsageError(
                 f"field {field!r}: {self.name} has no masses, expected one of "
