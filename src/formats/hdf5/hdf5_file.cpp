@@ -359,13 +359,15 @@ std::optional<std::vector<double>> Hdf5File::numbers(const std::string& object,
   const Type type(H5Aget_type(attribute.id()));
   const H5T_class_t kind = H5Tget_class(type.id());
   if (kind == H5T_STRING) return numbers_in(texts(attribute.id()));
-  if (kind != H5T_FLOAT && kind != H5T_INTEGER) return std::nullopt;
+  // h5py writes true and false as an enumeration.
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER && kind != H5T_ENUM) return std::nullopt;
   const Space space(H5Aget_space(attribute.id()));
   // Attributes live in object headers of at most 64 KiB or in dense storage; either way
   // the number of points is bounded by what HDF5 has already read.
   std::vector<double> values(
       static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id()))));
-  if (values.empty() || H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, values.data()) < 0) {
+  if (values.empty()) return std::nullopt;  // it states nothing
+  if (H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, values.data()) < 0) {
     fail(fmt::format("attribute {} of {} cannot be read", name, object));
   }
   return values;
