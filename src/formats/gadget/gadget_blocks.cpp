@@ -226,6 +226,16 @@ std::uint64_t position_bytes(const GadgetBinaryFile& file) {
   return found->bytes;
 }
 
+std::string several_fit(const std::string& label, const BlockLayout& layout) {
+  std::vector<int> types;
+  for (int type = 0; type < 6; ++type) {
+    if ((layout.types >> type & 1U) != 0) types.push_back(type);
+  }
+  return fmt::format(
+      "block {} fits several sets of particle types by its length; taken for type {}", label,
+      fmt::join(types, " and "));
+}
+
 // A block whose meaning only its length tells.
 void add_by_length(const BlockLayouts& layouts, const GadgetRecord& record,
                    const std::string& label, std::vector<GadgetBlock>& blocks, Notes& notes) {
@@ -238,15 +248,7 @@ void add_by_length(const BlockLayouts& layouts, const GadgetRecord& record,
                     label, record.bytes));
     return;
   }
-  if (is_ambiguous) {
-    std::vector<int> types;
-    for (int type = 0; type < 6; ++type) {
-      if ((layout->types >> type & 1U) != 0) types.push_back(type);
-    }
-    notes.push_back(
-        fmt::format("block {} fits several sets of particle types by its length; taken for type {}",
-                    label, fmt::join(types, " and ")));
-  }
+  if (is_ambiguous) notes.push_back(several_fit(label, *layout));
   blocks.push_back({label, record.offset, *layout});
 }
 
@@ -270,7 +272,11 @@ std::vector<GadgetBlock> understand_labelled(const GadgetBinaryFile& file,
                                   record.label, layout->values_per_particle));
       continue;
     }
-    if (!layout || !is_drawable) layout = layouts.fit_standard(record.label, record.bytes);
+    if (!layout || !is_drawable) {
+      layout = layouts.fit_standard(record.label, record.bytes, true);
+      const bool is_unsure = layout && layouts.may_be_of_fewer(record.label, *layout);
+      if (is_unsure) notes.push_back(several_fit(record.label, *layout));
+    }
     if (layout) {
       blocks.push_back({record.label, record.offset, *layout});
     } else if (is_standard_block(record.label)) {
