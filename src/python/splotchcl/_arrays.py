@@ -42,7 +42,7 @@ def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None
     is_narrow = plain.dtype.kind == "b" or np.can_cast(plain.dtype, np.float32, "safe")
     wanted = np.dtype(np.float32 if is_narrow else np.float64)
     # Nor do doubles hold all identifiers.
-    if not is_narrow and plain.dtype.kind in "iu" and plain.size == len(plain):
+    if not is_narrow and plain.dtype.kind in "iu" and plain.shape[1:] in ((), (1,)):
         wanted = np.dtype(np.int64 if plain.dtype.kind == "i" else np.uint64)
     note = _copy_note(field, values, plain, wanted)
     if plain.dtype == wanted and plain.flags.c_contiguous and plain.flags.aligned:
