@@ -55,7 +55,7 @@ bool is_standard_block(std::string_view label) {
       [label](const StandardBlock& block) { return block.label == label && block.must_fit; });
 }
 
-BlockLayouts::BlockLayouts(const GadgetHeader& header, std::uint64_t position_bytes,
+BlockLayouts::BlockLayouts(const GadgetHeader& header, std::uint64_t vector_bytes,
                            std::vector<BlockDescription> descriptions)
     : counts_(header.counts), descriptions_(std::move(descriptions)) {
   for (std::size_t type = 0; type < counts_.size(); ++type) {
@@ -63,7 +63,7 @@ BlockLayouts::BlockLayouts(const GadgetHeader& header, std::uint64_t position_by
     present_ |= 1U << type;
     if (header.table_masses[type] == 0) without_table_mass_ |= 1U << type;
   }
-  is_double_ = position_bytes == particles_in(present_) * 3 * sizeof(double);
+  is_double_ = vector_bytes == particles_in(present_) * 3 * sizeof(double);
 }
 
 std::uint64_t BlockLayouts::particles_in(TypeSet types) const {
@@ -131,8 +131,8 @@ bool BlockLayouts::may_be_of_fewer(std::string_view label, const BlockLayout& la
 std::optional<BlockLayout> BlockLayouts::fit_standard(std::string_view label, std::uint64_t bytes,
                                                       bool or_all) const {
   if (label == "ID") return fit_ids(bytes);
-  const auto like_positions = fit_carriers(label, bytes, is_double_, or_all);
-  return like_positions ? like_positions : fit_carriers(label, bytes, !is_double_, false);
+  const auto like_vectors = fit_carriers(label, bytes, is_double_, or_all);
+  return like_vectors ? like_vectors : fit_carriers(label, bytes, !is_double_, false);
 }
 
 std::optional<BlockLayout> BlockLayouts::fit_description(std::string_view label,

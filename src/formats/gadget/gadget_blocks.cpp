@@ -218,12 +218,21 @@ std::string list_counts(const GadgetHeader& header) {
                   file.file->path().string(), found));
 }
 
-std::uint64_t position_bytes(const GadgetBinaryFile& file) {
-  const auto found =
+// Codes with positions in double precision may have all else in single precision, so velocities
+// tell more. Three values for each particle, nothing else is as long in format 1.
+std::uint64_t bytes_of_vectors(const GadgetBinaryFile& file) {
+  const auto positions =
       std::find_if(file.records.begin(), file.records.end(),
                    [&](const GadgetRecord& r) { return file.format == 1 || r.label == "POS"; });
-  if (found == file.records.end()) throw_no_positions(file);
-  return found->bytes;
+  if (positions == file.records.end()) throw_no_positions(file);
+  const auto velocities =
+      std::find_if(file.format == 1 ? positions + 1 : file.records.begin(), file.records.end(),
+                   [&](const GadgetRecord& r) { return file.format == 1 || r.label == "VEL"; });
+  const bool are_vectors =
+      velocities != file.records.end() &&
+      (velocities->bytes == positions->bytes || velocities->bytes == positions->bytes / 2 ||
+       velocities->bytes == positions->bytes * 2);
+  return are_vectors ? velocities->bytes : positions->bytes;
 }
 
 std::string several_fit(const std::string& label, const BlockLayout& layout) {
@@ -345,7 +354,7 @@ void count_by_blocks(GadgetBinaryFile& file, Notes& notes) {
 
 std::vector<GadgetBlock> understand_records(const GadgetBinaryFile& file, Notes& notes) {
   if (file.header.particles() == 0) return {};
-  const BlockLayouts layouts(file.header, position_bytes(file), read_descriptions(file));
+  const BlockLayouts layouts(file.header, bytes_of_vectors(file), read_descriptions(file));
   return file.format == 1 ? understand_unlabelled(file, layouts, notes)
                           : understand_labelled(file, layouts, notes);
 }

@@ -35,13 +35,13 @@ struct StandardBlock;
 // holds scalars or 3-vectors, and in which precision.
 class BlockLayouts {
  public:
-  // `position_bytes` is the length of the block of positions, which decides which
+  // `vector_bytes` is the length of the block of velocities or positions, which decides which
   // precision is tried first.
-  BlockLayouts(const GadgetHeader& header, std::uint64_t position_bytes,
+  BlockLayouts(const GadgetHeader& header, std::uint64_t vector_bytes,
                std::vector<BlockDescription> descriptions = {});
 
   // Whether `bytes` is right for a block of this standard label: of the types that have it in
-  // most codes or, `or_all`, of all types; rather in the precision of the positions.
+  // most codes or, `or_all`, of all types; rather in the precision of these vectors.
   std::optional<BlockLayout> fit_standard(std::string_view label, std::uint64_t bytes,
                                           bool or_all = false) const;
 

@@ -26,11 +26,16 @@ std::string info_block(const std::string& label, std::uint32_t values,
 }
 
 // Of two types with as many particles.
-TestSnapshot two_types(const std::string& label, unsigned types, double mass_of_second = 0) {
+TestSnapshot two_types(const std::string& label, unsigned types, double mass_of_second = 0,
+                       bool has_double_positions = false) {
   TestSnapshot written;
   written.counts = {8, 8, 0, 0, 0, 0};
   written.table_masses[1] = mass_of_second;
   add_block(written, "POS", 3U, 3);
+  if (has_double_positions) {
+    written.block("POS").kind = ValueKind::float64;
+    add_block(written, "VEL", 3U, 3);
+  }
   add_block(written, label, types, 1);
   return written;
 }
@@ -144,6 +149,9 @@ INSTANTIATE_TEST_SUITE_P(
          "note U fits several sets"},
         {"AreAllOfSmoothingLengthsInThePrecisionOfPositions", 2, two_types("HSML", 3U),
          "note HSML fits several sets"},
+        {"AreAllOfSmoothingLengthsInThePrecisionOfVelocities", 2, two_types("HSML", 3U, 0, true),
+         "note HSML fits several sets of particle types by its length; taken for type 0 and 1",
+         in_part},
         // One for each of 16 particles, or two for each of 8.
         {"OfOtherWidthsThanAnInfoBlockSaysAreLeftOut", 2, two_types("ZS", 3U),
          "no ZS/0 | note ZS left out: it has 2 values", in_part,
