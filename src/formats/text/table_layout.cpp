@@ -126,8 +126,9 @@ void split_row(const TextLines& line, const HeaderLines& header, TableLayout& la
   }
   format.separator = find_separator(line.line());
   layout.cells = cells_of(line, format);
-  if (format.separator == ',' && !is_row(layout.cells)) {
-    // Commas may be those of the numbers.
+  const bool may_be_of_a_cell = format.separator == ',' || format.separator == '|';
+  if (may_be_of_a_cell && !is_row(layout.cells)) {
+    // Commas may be those of the numbers, bars those of a word.
     format.separator = ' ';
     layout.cells = cells_of(line, format);
   }
@@ -160,7 +161,7 @@ void name_columns(const HeaderLines& header, TableLayout& layout) {
 
 // How many columns a line names, positions among them; 0 where it does not.
 std::size_t count_names(std::string_view line) {
-  for (const char separator : {',', ';', '\t', ' '}) {
+  for (const char separator : {',', ';', '|', '\t', ' '}) {
     std::vector<std::string_view> words = split_cells(line, separator);
     if (words.back().empty()) words.pop_back();
     if (name_positions(in_our_words({words.begin(), words.end()}))) return words.size();

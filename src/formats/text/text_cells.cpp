@@ -50,10 +50,10 @@ bool TextLines::next() {
 
 namespace {
 
+// Of a line in a frame. A bar at one end alone is beside an empty cell.
 std::string_view without_bars(std::string_view line) {
-  if (!line.empty() && line.front() == '|') line.remove_prefix(1);
-  if (!line.empty() && line.back() == '|') line.remove_suffix(1);
-  return line;
+  const bool is_framed = line.size() > 1 && line.front() == '|' && line.back() == '|';
+  return is_framed ? line.substr(1, line.size() - 2) : line;
 }
 
 // Takes the next cell off the line.
@@ -146,7 +146,7 @@ char find_separator(std::string_view line) {
   char separator = ' ';
   for (const char c : line) {
     if (c == '"') is_quoted = !is_quoted;
-    if (!is_quoted && c == ';') return c;
+    if (!is_quoted && (c == ';' || c == '|')) return c;
     if (!is_quoted && c == ',') separator = c;
   }
   return separator;

@@ -70,8 +70,8 @@ class CellReader {
 std::vector<std::string_view> cells_of(const TextLines& line, const CellFormat& format);
 std::vector<std::string_view> split_cells(std::string_view line, char separator);
 
-// The separator of a line: a semicolon or comma outside of quotes, else white space. Between
-// semicolons a comma may be that of a number.
+// The separator of a line: a semicolon, a bar or a comma outside of quotes, else white space.
+// Between semicolons or bars a comma may be that of a number.
 char find_separator(std::string_view line);
 
 // Whether a cell says that there is no number.
