@@ -101,11 +101,19 @@ std::vector<std::string> names_in(const HeaderLines& header, std::size_t wanted)
   return names;
 }
 
+bool has_tabs_between(std::string_view line, std::size_t columns) {
+  if (line.find('\t') == std::string_view::npos) return false;
+  const std::vector<std::string_view> names = split_cells(line, '\t');
+  return names.size() == columns && std::none_of(names.begin(), names.end(), is_missing);
+}
+
 // Whether the line of names has so many of them apart by tabs: cells may then be empty.
 bool has_tabs(const HeaderLines& header, std::size_t columns) {
-  if (header.line.find('\t') == std::string_view::npos) return false;
-  const std::vector<std::string_view> names = split_cells(header.whole_line, '\t');
-  return names.size() == columns && std::none_of(names.begin(), names.end(), is_missing);
+  if (!header.line.empty()) return has_tabs_between(header.whole_line, columns);
+  return std::any_of(header.comments.begin(), header.comments.end(),
+                     [columns](std::string_view comment) {
+                       return has_tabs_between(without_blanks(comment), columns);
+                     });
 }
 
 // A line of a frame around a table: ===== ===== or |-----|.
@@ -150,7 +158,7 @@ void name_columns(const HeaderLines& header, TableLayout& layout) {
     const std::size_t units = layout.format.places.empty() ? header.bars.size() : 2;
     layout.names = in_our_words(names_between_bars(header.bars, units));
     if (layout.names.size() != layout.cells.size()) layout.names.clear();
-  } else if (layout.format.separator == '\t') {
+  } else if (layout.format.separator == '\t' && !header.line.empty()) {
     const std::vector<std::string_view> names = split_cells(header.whole_line, '\t');
     layout.names = in_our_words({names.begin(), names.end()});
     add_ecsv_units(header.comments, layout.names);
