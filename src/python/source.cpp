@@ -175,6 +175,7 @@ py::Dict describe(const ParticleTypeInfo& type) {
   py::Dict text;
   text.set("type", type.type);
   text.set("count", type.count);
+  text.set("particles_per_read", type.particles_per_drawn);
   text.set("mass", type.table_mass);
   text.set("fields", fields);
   text.set("derived", derivable_fields(type));

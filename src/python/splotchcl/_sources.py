@@ -32,6 +32,11 @@ class ParticleType:
         return int(self._described["count"])
 
     @property
+    def particles_per_read(self) -> float:
+        """How many particles of the file each stands for: more than 1 where a part of them is read."""
+        return float(self._described["particles_per_read"])
+
+    @property
     def fields(self) -> dict[str, str]:
         """Names of the fields, and their units ("" where the file does not say)."""
         return {name: field[2] for name, field in self._described["fields"].items()}
