@@ -118,16 +118,16 @@ bool add_axes(const Hdf5File& file, const std::string& group, Hdf5Columns& found
                         std::all_of(datasets.begin(), datasets.end(), is_axis) &&
                         std::all_of(groups.begin(), groups.end(), is_axis);
   if (!are_axes) return false;
+  const std::string vector = field_label(last_name(group));
   Hdf5Columns axes;
   for (const std::string& axis : datasets) {
     Hdf5Dataset dataset = file.dataset(path_in(group, axis));
     if (!is_column(dataset) || dataset.values_per_row() != 1) return false;
-    const std::string name = last_name(group) + " " + lower_case(axis), path = dataset.path;
+    const std::string name = vector + " " + lower_case(axis), path = dataset.path;
     axes.columns.push_back(column_of(name, path, std::move(dataset)));
   }
   for (const std::string& axis : groups) {
-    auto column =
-        constant_in(file, last_name(group) + " " + lower_case(axis), path_in(group, axis));
+    auto column = constant_in(file, vector + " " + lower_case(axis), path_in(group, axis));
     if (!column) return false;
     axes.columns.push_back(std::move(*column));
   }
