@@ -270,6 +270,13 @@ bool Hdf5File::has(const std::string& object) const {
   return H5Oexists_by_name(file_.id(), object.c_str(), rules_.of_links()) > 0;
 }
 
+bool Hdf5File::is_soft_link(const std::string& object) const {
+  const Hdf5Silence silence;
+  H5L_info_t link;
+  return H5Lget_info(file_.id(), object.c_str(), &link, rules_.of_links()) >= 0 &&
+         link.type == H5L_TYPE_SOFT;
+}
+
 std::vector<std::string> Hdf5File::groups(const std::string& group) const {
   const Hdf5Silence silence;
   return children(group, H5I_GROUP);
