@@ -132,13 +132,10 @@ void split_row(const TextLines& line, const HeaderLines& header, TableLayout& la
     layout.cells = cells_of(line, format);
     return;
   }
-  format.separator = find_separator(line.line());
-  layout.cells = cells_of(line, format);
-  const bool may_be_of_a_cell = format.separator == ',' || format.separator == '|';
-  if (may_be_of_a_cell && !is_row(layout.cells)) {
-    // Commas may be those of the numbers, bars those of a word.
-    format.separator = ' ';
+  for (const char separator : possible_separators(line.line())) {
+    format.separator = separator;
     layout.cells = cells_of(line, format);
+    if (separator == ';' || is_row(layout.cells)) break;
   }
   const CellFormat tabs = {'\t', {}};
   const std::vector<std::string_view> apart_by_tabs = cells_of(line, tabs);

@@ -141,15 +141,20 @@ std::vector<std::string_view> split_cells(std::string_view line, char separator)
   return cells;
 }
 
-char find_separator(std::string_view line) {
+std::vector<char> possible_separators(std::string_view line) {
+  constexpr std::string_view known = ";,|";
+  std::string found;
   bool is_quoted = false;
-  char separator = ' ';
   for (const char c : line) {
     if (c == '"') is_quoted = !is_quoted;
-    if (!is_quoted && (c == ';' || c == '|')) return c;
-    if (!is_quoted && c == ',') separator = c;
+    if (!is_quoted && known.find(c) != std::string_view::npos) found += c;
   }
-  return separator;
+  std::vector<char> separators;
+  for (const char c : known) {
+    if (found.find(c) != std::string::npos) separators.push_back(c);
+  }
+  separators.push_back(' ');
+  return separators;
 }
 
 bool is_missing(std::string_view cell) {
