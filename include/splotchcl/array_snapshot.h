@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "splotchcl/snapshot.h"
 
@@ -30,6 +31,12 @@ class ArraySnapshot : public Snapshot {
                  int values_per_particle = 1);
   void set_field(int type, const std::string& field, const double* values, std::uint64_t count,
                  int values_per_particle = 1);
+  // One whole number for each, copied: conditions, ids and halo ids have it exact, all else as a
+  // float.
+  void set_field(int type, const std::string& field, const std::int64_t* values,
+                 std::uint64_t count);
+  void set_field(int type, const std::string& field, const std::uint64_t* values,
+                 std::uint64_t count);
   // Floats that `owner` keeps where they are. It is kept as long as the snapshot or a column that
   // was read of it has them, and may be let go by any thread that uses one.
   void set_field(int type, const std::string& field, const float* values, std::uint64_t count,
@@ -61,15 +68,22 @@ class ArraySnapshot : public Snapshot {
   const SnapshotInfo& info() const override { return info_; }
   // Throws DataError for a type or a field that has not been set.
   Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
   Vec3 position_origin() const override { return origin_; }
 
  private:
+  struct Values {
+    Column column;
+    std::vector<std::uint64_t> whole;  // the same numbers, where they were given as whole ones
+  };
   void replace(ParticleTypeInfo info);
   void add_field(int type, const std::string& field, std::uint64_t count, int values_per_particle,
-                 const Column& column);
+                 Values values);
+  template <typename Whole>
+  void add_whole(int type, const std::string& field, const Whole* values, std::uint64_t count);
 
   SnapshotInfo info_;
-  std::map<std::pair<int, std::string>, Column> columns_;  // by type and the caller's name
+  std::map<std::pair<int, std::string>, Values> values_;  // by type and the caller's name
   Vec3 origin_ = {{0, 0, 0}};
   bool has_double_positions_ = false;
 };

@@ -73,7 +73,8 @@ splotchcl_particles* splotchcl_particles_new(void);
  * asks for. `values` has values_per_particle * count numbers, all of one particle before those
  * of the next: 3 for each of positions (x y z), 1 or 3 of other fields.
  * Floats are borrowed until they are replaced or the particles freed, and read anew for each
- * picture. Doubles are copied, as floats.
+ * picture. Doubles are copied, as floats. Integers, 1 for each, are copied: conditions and lists of
+ * ids have them exact, all else as floats; those of "id" count as unsigned.
  * A type needs "position"; all fields of a type have the same count. A particle with a value
  * that is not finite, a smoothing length not above 0, or a weight below 0 is left out of
  * pictures. Code 2 for a type, a number of values or a count that cannot be, and for an array that
@@ -84,6 +85,8 @@ int splotchcl_particles_set_floats(splotchcl_particles* particles, int type, con
 int splotchcl_particles_set_doubles(splotchcl_particles* particles, int type, const char* field,
                                     const double* values, uint64_t count, int values_per_particle,
                                     splotchcl_error* error);
+int splotchcl_particles_set_integers(splotchcl_particles* particles, int type, const char* field,
+                                     const int64_t* values, uint64_t count, splotchcl_error* error);
 /* The same mass for all of a type, in place of a field "mass": a finite number >= 0. */
 int splotchcl_particles_set_mass(splotchcl_particles* particles, int type, double mass,
                                  splotchcl_error* error);

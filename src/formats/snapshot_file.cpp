@@ -162,7 +162,8 @@ std::unique_ptr<Snapshot> open_file(const fs::path& path, const SnapshotOptions&
 std::map<fs::path, std::vector<fs::path>> find_sets(const fs::path& folder) {
   std::map<fs::path, std::vector<fs::path>> sets;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (!entry.is_regular_file()) continue;
+    std::error_code ignored;  // a link to itself is none
+    if (!entry.is_regular_file(ignored)) continue;
     const SnapshotFormat* const format = find_format(entry.path());
     if (format == nullptr || format == &text_table_format()) continue;
     const auto member = parse_member_name(entry.path());

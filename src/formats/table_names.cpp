@@ -38,8 +38,19 @@ std::string as_utf8(const std::string& name) {
 }
 
 std::string in_our_units(const std::string& unit) {
-  constexpr std::array<std::array<const char*, 2>, 5> words = {
-      {{"cpc", "a pc"}, {"ckpc", "a kpc"}, {"cMpc", "a Mpc"}, {"cGpc", "a Gpc"}, {"Msol", "Msun"}}};
+  constexpr std::array<std::array<const char*, 2>, 13> words = {{{"cpc", "a pc"},
+                                                                 {"ckpc", "a kpc"},
+                                                                 {"cMpc", "a Mpc"},
+                                                                 {"cGpc", "a Gpc"},
+                                                                 {"pccm", "a pc"},
+                                                                 {"kpccm", "a kpc"},
+                                                                 {"Mpccm", "a Mpc"},
+                                                                 {"Gpccm", "a Gpc"},
+                                                                 {"ppc", "pc"},
+                                                                 {"pkpc", "kpc"},
+                                                                 {"pMpc", "Mpc"},
+                                                                 {"pGpc", "Gpc"},
+                                                                 {"Msol", "Msun"}}};
   const auto is_letter = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
   };

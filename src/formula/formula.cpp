@@ -243,15 +243,34 @@ class FormulaParser {
                     what_, quoted(part), text_));
   }
 
-  // Exact where it is written as a whole number; else as far as double precision has them all.
+  // Exact however it is written: 1099511627776, 1.2e18, 5.0.
   static std::optional<std::uint64_t> whole_of(const std::string& text, double value) {
+    if (value != std::floor(value)) return std::nullopt;
+    const std::size_t mantissa_end = std::min(text.find_first_of("eE"), text.size());
+    std::string digits = text.substr(0, mantissa_end);
+    int power = 0;
+    if (mantissa_end < text.size()) {
+      const std::size_t begin = mantissa_end + (text[mantissa_end + 1] == '+' ? 2 : 1);
+      const char* const end = text.data() + text.size();
+      const auto [rest, error] = std::from_chars(text.data() + begin, end, power);
+      constexpr int beyond_any_text = 10000;
+      if (error != std::errc() || rest != end || std::abs(power) > beyond_any_text)
+        return std::nullopt;
+    }
+    if (const std::size_t point = digits.find('.'); point != std::string::npos) {
+      power -= static_cast<int>(digits.size() - point) - 1;
+      digits.erase(point, 1);
+    }
+    constexpr int most_digits = 20;  // of 2^64
+    if (power > most_digits) return std::nullopt;
+    digits.append(static_cast<std::size_t>(std::max(power, 0)), '0');
+    for (; power < 0 && digits.size() > 1 && digits.back() == '0'; ++power)
+      digits.pop_back();
     std::uint64_t whole = 0;
-    const char* const end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, whole);
-    if (error == std::errc() && rest == end) return whole;
-    constexpr double largest = 9007199254740992.0;
-    if (value != std::floor(value) || value >= largest) return std::nullopt;
-    return static_cast<std::uint64_t>(value);
+    const char* const end = digits.data() + digits.size();
+    const auto [rest, error] = std::from_chars(digits.data(), end, whole);
+    const bool is_whole = error == std::errc() && rest == end && power >= 0;
+    return is_whole ? std::optional(whole) : std::nullopt;
   }
 
   std::size_t constant(double value) {

@@ -38,6 +38,35 @@ bool compare(Operation comparison, Number a, Number b) {
   }
 }
 
+// A number of a formula, and how large it is exactly where it is a whole one.
+struct ComparedNumber {
+  double value = 0;
+  std::optional<std::uint64_t> size;
+};
+
+// Below 0, 0 or above 0 as the size is less than the number, that, or more.
+int order_of(std::uint64_t size, double number) {
+  constexpr double beyond_all = 18446744073709551616.0;  // 2^64
+  if (number >= beyond_all) return -1;
+  const auto whole = static_cast<std::uint64_t>(number);
+  if (size != whole) return size < whole ? -1 : 1;
+  return number > static_cast<double>(whole) ? -1 : 0;
+}
+
+// The same of whole numbers with a sign; no double has them all.
+int order_of(std::uint64_t value, bool is_signed, const ComparedNumber& number) {
+  const bool is_negative = is_signed && static_cast<std::int64_t>(value) < 0;
+  if (is_negative != (number.value < 0)) return is_negative ? -1 : 1;
+  const std::uint64_t size = is_negative ? 0 - value : value;
+  int order = 0;
+  if (!number.size) {
+    order = order_of(size, std::abs(number.value));
+  } else if (size != *number.size) {
+    order = size < *number.size ? -1 : 1;
+  }
+  return is_negative ? -order : order;
+}
+
 Operation opposite(Operation comparison) {
   switch (comparison) {
     case Operation::less:
@@ -166,16 +195,15 @@ class ProgramWriter {
         number.operation == Operation::negate && operand(number, 0).operation == Operation::number;
     const bool is_number = number.operation == Operation::number || is_negative;
     if (field.operation != Operation::field || !is_number) return std::nullopt;
-    const double value = is_negative ? -operand(number, 0).number : number.number;
+    const FormulaPart& size = is_negative ? operand(number, 0) : number;
+    const ComparedNumber compared = {is_negative ? -size.number : size.number, size.whole};
     constexpr double first_that_floats_confuse = 16777216;
     const std::optional<WholeNumbers> whole =
-        whole_of(formula_.fields()[field.name], std::abs(value) >= first_that_floats_confuse);
+        whole_of(formula_.fields()[field.name], std::abs(size.number) >= first_that_floats_confuse);
     if (!whole) return std::nullopt;
-    const auto exact = is_negative ? std::nullopt : number.whole;
     inputs_.emplace_back([=, found = *whole](std::size_t begin, std::size_t end, double* out) {
-      for (std::size_t i = begin; i < end; ++i) {
-        *out++ = holds_for_whole(comparison, (*found.values)[i], found.are_signed, value, exact);
-      }
+      for (std::size_t i = begin; i < end; ++i)
+        *out++ = compare(comparison, order_of((*found.values)[i], found.are_signed, compared), 0);
     });
     return fmt::format("(f{}!=0)", inputs_.size() - 1);
   }
@@ -229,16 +257,6 @@ class ProgramWriter {
 };
 
 }  // namespace
-
-bool holds_for_whole(Operation comparison, std::uint64_t value, bool is_signed, double number,
-                     const std::optional<std::uint64_t>& whole) {
-  const bool is_negative = is_signed && static_cast<std::int64_t>(value) < 0;
-  if (whole && is_negative) return compare(comparison, -1, 0);
-  if (whole) return compare(comparison, value, *whole);
-  const double rounded = is_negative ? static_cast<double>(static_cast<std::int64_t>(value))
-                                     : static_cast<double>(value);
-  return compare(comparison, rounded, number);
-}
 
 // A parser belongs to one thread at a time. Its own evaluation in bulk starts threads of OpenMP for
 // every call, which takes thirty times as long as the values; so it is asked value by value.

@@ -22,10 +22,6 @@ struct WholeNumbers {
   bool are_signed = false;
 };
 
-// Whether it compares so with a number; exact where the number is a whole one.
-bool holds_for_whole(Operation comparison, std::uint64_t value, bool is_signed, double number,
-                     const std::optional<std::uint64_t>& whole);
-
 // Where a formula's fields come from. Only those that it needs are asked for, each once.
 struct FormulaSources {
   std::function<FieldValues(const std::string& field)> values;

@@ -41,7 +41,9 @@ class TurnedSnapshot : public Snapshot {
     if (name == "velocity") return turned(type).velocity;
     return galaxy_->read(type, field);
   }
-  std::vector<std::uint64_t> read_ids(int type) const override { return galaxy_->read_ids(type); }
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override {
+    return galaxy_->read_integers(type, field);
+  }
 
  private:
   struct Turned {

@@ -239,6 +239,15 @@ int splotchcl_particles_set_doubles(splotchcl_particles* particles, int type, co
   });
 }
 
+int splotchcl_particles_set_integers(splotchcl_particles* particles, int type, const char* field,
+                                     const int64_t* values, uint64_t count,
+                                     splotchcl_error* error) {
+  return guarded(error, [&] {
+    require(particles, "the particles")
+        ->arrays.set_field(type, require(field, "the field's name"), values, count);
+  });
+}
+
 int splotchcl_particles_set_mass(splotchcl_particles* particles, int type, double mass,
                                  splotchcl_error* error) {
   return guarded(error, [&] { require(particles, "the particles")->arrays.set_mass(type, mass); });

@@ -268,15 +268,30 @@ Column TypeFields::densities() const {
     const Column h = smoothing_lengths();
     say(fmt::format("type {} has no density in the file; estimated from its smoothing lengths",
                     type_->type));
-    return densities_from_smoothing_lengths(mass, h, count(), sizes_.neighbors, streams());
+    // Neighbors that lengths reach to are those that are read.
+    const bool is_part = type_->particles_per_drawn != 1;
+    const double stands_for = is_part && reach_to_neighbors() ? type_->particles_per_drawn : 1;
+    return densities_from_smoothing_lengths(mass, h, count(), stands_for * sizes_.neighbors,
+                                            streams());
   });
 }
 
+// Where they are not all 0, on which ranks that have parts of their own would have to agree.
+std::optional<Column> TypeFields::own_lengths() const {
+  if (find_field(*type_, "smoothing_length") == nullptr) return std::nullopt;
+  Column own = snapshot_->read(type_->type, "smoothing_length");
+  const bool count = snapshot_->spread() || !are_all_zero(own, pass_over(*snapshot_, type_->type));
+  return count ? std::optional(std::move(own)) : std::nullopt;
+}
+
+bool TypeFields::reach_to_neighbors() const {
+  std::string reason;
+  return !own_lengths() && !lengths_from_volumes(reason);
+}
+
 Column TypeFields::smoothing_lengths() const {
+  if (std::optional<Column> own = own_lengths()) return *std::move(own);
   if (find_field(*type_, "smoothing_length") != nullptr) {
-    const Column own = snapshot_->read(type_->type, "smoothing_length");
-    // Ranks that have parts of their own would have to agree.
-    if (snapshot_->spread() || !are_all_zero(own, pass_over(*snapshot_, type_->type))) return own;
     say(fmt::format("the smoothing lengths of type {} in the file are all 0: they do not count",
                     type_->type));
   }
@@ -328,11 +343,7 @@ std::optional<Column> TypeFields::lengths_from_volumes(std::string& reason) cons
                                            count(), sizes_.neighbors, streams(), *unit)
           : smoothing_lengths_from_volume(snapshot_->read(type_->type, "volume"), count(),
                                           sizes_.neighbors, streams(), *unit);
-  if (all_are_sizes(lengths, pass_over(*snapshot_, type_->type))) {
-    say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
-                    type_->type, has_density ? "density and mass" : "the volumes of its cells"));
-    return lengths;
-  }
+  if (all_are_sizes(lengths, pass_over(*snapshot_, type_->type))) return lengths;
   reason = has_density ? ", and some of its densities or masses are not above 0"
                        : ", and some of its volumes are not above 0";
   return std::nullopt;
@@ -340,7 +351,12 @@ std::optional<Column> TypeFields::lengths_from_volumes(std::string& reason) cons
 
 Column TypeFields::find_lengths() const {
   std::string reason;
-  if (const auto lengths = lengths_from_volumes(reason)) return *lengths;
+  if (const auto lengths = lengths_from_volumes(reason)) {
+    const bool has_density = has_masses(*type_) && find_field(*type_, "density") != nullptr;
+    say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
+                    type_->type, has_density ? "density and mass" : "the volumes of its cells"));
+    return *lengths;
+  }
   say(
       fmt::format("type {} has no smoothing lengths in the file{}; each particle is given one that "
                   "reaches to neighbour {}",

@@ -66,6 +66,8 @@ class TypeFields {
   Column derived_temperatures(const std::string& key) const;
   Column densities() const;
   Column find_lengths() const;
+  std::optional<Column> own_lengths() const;
+  bool reach_to_neighbors() const;  // smoothing lengths
   std::optional<Column> lengths_from_volumes(std::string& reason) const;
   std::optional<double> unit_of_densities() const;
   std::optional<double> unit_of_volumes() const;

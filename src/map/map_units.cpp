@@ -192,6 +192,12 @@ NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuanti
   return data.field(settings.quantity);
 }
 
+const char* what_is_missing(const std::string& unit) {
+  if (is_unit(unit)) return "the numbers for a and h";
+  const bool is_unsaid = unit.find("code_") != std::string::npos || unit == "no_unit";
+  return is_unsaid ? "its units" : "units that are known";
+}
+
 [[noreturn]] void refuse_unknown(const std::string& wanted, const NamedUnits& found) {
   const bool is_count = found.name.rfind("particles", 0) == 0;
   if (is_count) {
@@ -203,7 +209,7 @@ NamedUnits unit_of(const MapSettings& settings, const DataUnits& data, MapQuanti
       "key map.unit: found \"{}\", but the map is in {}, since the snapshot does not say {}, "
       "expected them; set map.length_unit, map.mass_unit and map.velocity_unit, as far as the "
       "quantity needs them",
-      wanted, found.name, is_unit(found.name) ? "the numbers for a and h" : "its units"));
+      wanted, found.name, what_is_missing(found.name)));
 }
 
 [[noreturn]] void refuse_unknown_length(const std::string& found, const NamedUnits& length,

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "openimageio/pictures.h"
@@ -204,6 +205,42 @@ ChannelPlaces find_channels(const OIIO::ImageSpec& spec) {
   return places;
 }
 
+namespace {
+
+// Where a picture's first row and column are shown, as EXIF and TIFF say it; 1: above and left.
+int orientation_of(const OIIO::ImageSpec& spec) {
+  const int orientation = spec.get_int_attribute("Orientation", 1);
+  return orientation >= 1 && orientation <= 8 ? orientation : 1;
+}
+
+// From 5 on rows are shown as columns.
+bool is_turned(const OIIO::ImageSpec& spec) {
+  return orientation_of(spec) >= 5;
+}
+
+// As viewers show it: cameras write rows as their sensor has them, and how they were held beside.
+Image upright(const OIIO::ImageSpec& spec, Image stored) {
+  const int orientation = orientation_of(spec);
+  if (orientation == 1) return stored;
+  constexpr unsigned with_last_column_first = 1U << 2 | 1U << 3 | 1U << 7 | 1U << 8,
+                     with_last_row_first = 1U << 3 | 1U << 4 | 1U << 6 | 1U << 7;
+  const bool mirrors_columns = (with_last_column_first >> orientation & 1U) != 0,
+             mirrors_rows = (with_last_row_first >> orientation & 1U) != 0;
+  const bool turns = is_turned(spec);
+  Image image = turns ? Image(stored.height, stored.width) : Image(stored.width, stored.height);
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const int column = turns ? y : x, row = turns ? x : y;
+      std::copy_n(stored.at(mirrors_columns ? stored.width - 1 - column : column,
+                            mirrors_rows ? stored.height - 1 - row : row),
+                  4, image.at(x, y));
+    }
+  }
+  return image;
+}
+
+}  // namespace
+
 Image read_stored(const std::filesystem::path& path) {
   const std::unique_ptr<OIIO::ImageInput> input = open_image(path);
   const OIIO::ImageSpec spec = input->spec();
@@ -225,15 +262,15 @@ Image read_stored(const std::filesystem::path& path) {
       to[i] = from[places.color[i]];
     to[3] = places.alpha < 0 ? 1.0F : from[places.alpha];
   }
-  return image;
+  return upright(spec, std::move(image));
 }
 
 ImageFileInfo read_info(const std::filesystem::path& path) {
   const std::unique_ptr<OIIO::ImageInput> input = open_image(path);
   const OIIO::ImageSpec& spec = input->spec();
   ImageFileInfo info;
-  info.width = spec.width;
-  info.height = spec.height;
+  info.width = is_turned(spec) ? spec.height : spec.width;
+  info.height = is_turned(spec) ? spec.width : spec.height;
   info.has_alpha = spec.alpha_channel >= 0;
   info.is_float = spec.format.is_floating_point();
   for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
@@ -419,7 +456,7 @@ Image read_linear(const std::filesystem::path& path, const LinearImageOptions& o
   } else {
     add_whole_numbers(reader, gamma, sums);
   }
-  return std::move(sums).finish();
+  return upright(spec, std::move(sums).finish());
 }
 
 }  // namespace splotchcl

@@ -43,6 +43,25 @@ void change(Turn& turn, Change&& work) {
   });
 }
 
+void set_numbers(ArraySnapshot& arrays, int type, const std::string& field,
+                 const py::ArrayOfNumbers& values) {
+  using Kind = py::ArrayOfNumbers::Kind;
+  switch (values.kind) {
+    case Kind::float32:
+      return arrays.set_field(type, field, static_cast<const float*>(values.first), values.count,
+                              values.width, values.owner);
+    case Kind::float64:
+      return arrays.set_field(type, field, static_cast<const double*>(values.first), values.count,
+                              values.width);
+    case Kind::int64:
+      return arrays.set_field(type, field, static_cast<const std::int64_t*>(values.first),
+                              values.count);
+    case Kind::uint64:
+      return arrays.set_field(type, field, static_cast<const std::uint64_t*>(values.first),
+                              values.count);
+  }
+}
+
 }  // namespace
 
 ParticleArrays::ParticleArrays() : ParticleArrays(std::make_shared<ArraySnapshot>()) {}
@@ -50,13 +69,7 @@ ParticleArrays::ParticleArrays() : ParticleArrays(std::make_shared<ArraySnapshot
 void ParticleArrays::set_field(int type, const std::string& field, const py::ArrayOfNumbers& values,
                                const std::string& unit) {
   change(turn(), [&] {
-    if (values.is_double) {
-      const auto* const doubles = static_cast<const double*>(values.first);
-      arrays_->set_field(type, field, doubles, values.count, values.width);
-    } else {
-      const auto* const floats = static_cast<const float*>(values.first);
-      arrays_->set_field(type, field, floats, values.count, values.width, values.owner);
-    }
+    set_numbers(*arrays_, type, field, values);
     arrays_->set_unit(type, field, unit);
   });
 }
@@ -162,6 +175,7 @@ py::Dict describe(const ParticleTypeInfo& type) {
   py::Dict text;
   text.set("type", type.type);
   text.set("count", type.count);
+  text.set("particles_per_read", type.particles_per_drawn);
   text.set("mass", type.table_mass);
   text.set("fields", fields);
   text.set("derived", derivable_fields(type));

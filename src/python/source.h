@@ -56,7 +56,8 @@ class ParticleArrays : public Source {
  public:
   ParticleArrays();
 
-  // Floats are borrowed; doubles are copied. The unit is as files name units; empty: not known.
+  // Floats are borrowed; other numbers are copied. The unit is as files name units; empty: not
+  // known.
   void set_field(int type, const std::string& field, const py::ArrayOfNumbers& values,
                  const std::string& unit);
   void set_mass(int type, double mass);

@@ -120,33 +120,41 @@ Column InterpolatedSnapshot::interpolate(int type, const FieldInfo& field) const
   column.first = read_or_nothing(*pair_->first, type, field.name);
   column.second = read_or_nothing(*pair_->second, type, field.name);
   column.values_per_particle = field.values_per_particle;
-  // There is nothing between two ids.
-  if (field.name == "id") column.fraction = 0;
+  // There is nothing between two ids, nor between two haloes.
+  if (field.name == "id" || field.name == "halo_id") column.fraction = 0;
   if (is_logarithmic(field.name)) column.kind = ColumnBetween::Kind::logarithmic;
   return column_between(std::move(column));
 }
 
+std::vector<std::uint64_t> InterpolatedSnapshot::whole_numbers(
+    int type, const std::function<std::vector<std::uint64_t>(const Snapshot&)>& read) const {
+  std::vector<std::uint64_t> numbers;
+  if (pair_->first->info().find_type(type) != nullptr) numbers = read(*pair_->first);
+  const std::vector<std::uint32_t>& appearing = pair_->matches.at(type)->appearing;
+  if (appearing.empty()) return numbers;
+  const std::vector<std::uint64_t> of_second = read(*pair_->second);
+  for (const std::uint32_t place : appearing)
+    numbers.push_back(of_second[place]);
+  return numbers;
+}
+
 std::vector<std::uint64_t> InterpolatedSnapshot::read_ids(int type) const {
   require_type(info_, type);
-  std::vector<std::uint64_t> ids;
-  if (pair_->first->info().find_type(type) != nullptr) ids = pair_->first->read_ids(type);
-  const std::vector<std::uint32_t>& appearing = pair_->matches.at(type)->appearing;
-  if (appearing.empty()) return ids;
-  const std::vector<std::uint64_t> of_second = pair_->second->read_ids(type);
-  for (const std::uint32_t place : appearing)
-    ids.push_back(of_second[place]);
-  return ids;
+  return whole_numbers(type, [type](const Snapshot& s) { return s.read_ids(type); });
 }
 
 void InterpolatedSnapshot::refuse_haloes() const {
-  throw DataError(fmt::format(
+  throw UsageError(fmt::format(
       "{}: between two snapshots there are no numbers of haloes, expected time.interpolation "
       "\"none\", or select.ids with the particles of the halo",
       info_.files.front().string()));
 }
 
-std::vector<std::uint64_t> InterpolatedSnapshot::read_integers(int, const std::string&) const {
-  refuse_haloes();
+std::vector<std::uint64_t> InterpolatedSnapshot::read_integers(int type,
+                                                               const std::string& name) const {
+  const std::string field = require_field(info_, type, name).name;
+  if (field == "halo_id") refuse_haloes();
+  return whole_numbers(type, [&](const Snapshot& s) { return s.read_integers(type, field); });
 }
 
 std::uint64_t InterpolatedSnapshot::place_in_file(int, std::uint64_t) const {

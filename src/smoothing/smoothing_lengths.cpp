@@ -330,7 +330,7 @@ Column smoothing_lengths_from_density(const Column& mass, const Column& density,
 }
 
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
-                                        std::size_t count, int neighbors, bool streams) {
+                                        std::size_t count, double neighbors, bool streams) {
   const auto make = [=](std::size_t begin, std::size_t end, float* densities) {
     const ColumnStretch masses(mass, begin, end), lengths(smoothing_length, begin, end);
     for (std::size_t i = begin; i < end; ++i) {

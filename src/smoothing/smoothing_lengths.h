@@ -54,9 +54,9 @@ Column smoothing_lengths_from_volume(const Column& volume, std::size_t count,
                                      int neighbors = particles_in_sphere, bool streams = false,
                                      double volume_unit = 1);
 
-// The inverse: rho = neighbours m / (4 pi h^3 / 3).
+// The inverse: rho = neighbours m / (4 pi h^3 / 3). Each neighbour may stand for several.
 Column densities_from_smoothing_lengths(const Column& mass, const Column& smoothing_length,
-                                        std::size_t count, int neighbors = particles_in_sphere,
+                                        std::size_t count, double neighbors = particles_in_sphere,
                                         bool streams = false);
 
 }  // namespace splotchcl

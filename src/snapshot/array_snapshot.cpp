@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "snapshot/field_names.h"
@@ -20,6 +21,12 @@ void check_type(int type, const std::string& what) {
   if (type >= 0 && type < most_types) return;
   throw UsageError(
       fmt::format("{}: particle type {}, expected 0 to {}", what, type, most_types - 1));
+}
+
+template <typename Value>
+constexpr const char* name_of() {
+  if (std::is_integral_v<Value>) return "whole numbers of 64 bits";
+  return sizeof(Value) == sizeof(float) ? "floats" : "doubles";
 }
 
 template <typename Value>
@@ -43,7 +50,7 @@ void check(int type, const std::string& field, int values_per_particle, const Va
     throw UsageError(fmt::format(
         "field {} of type {}: the values do not lie at a multiple of {} bytes, expected an array "
         "of {} as the compiler lays it out",
-        field, type, alignof(Value), sizeof(Value) == sizeof(float) ? "floats" : "doubles"));
+        field, type, alignof(Value), name_of<Value>()));
   }
   // No array is longer than what a difference of two pointers can say.
   constexpr std::uint64_t most = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(Value);
@@ -83,7 +90,7 @@ void ArraySnapshot::replace(ParticleTypeInfo info) {
 
 // Where it throws, all is as it was.
 void ArraySnapshot::add_field(int type, const std::string& field, std::uint64_t count,
-                              int values_per_particle, const Column& column) {
+                              int values_per_particle, Values values) {
   const ParticleTypeInfo* const known = info_.find_type(type);
   ParticleTypeInfo info = known == nullptr ? empty_type(type) : *known;
   const bool is_alone =
@@ -101,7 +108,7 @@ void ArraySnapshot::add_field(int type, const std::string& field, std::uint64_t 
   info.fields.push_back({"", field, values_per_particle, ""});
   name_fields(info);
   changed();
-  columns_[{type, field}] = column;
+  values_[{type, field}] = std::move(values);
   replace(std::move(info));
 }
 
@@ -115,7 +122,7 @@ void ArraySnapshot::set_field(int type, const std::string& field, const float* v
                               std::shared_ptr<const void> owner) {
   check(type, field, values_per_particle, values, count);
   const auto size = static_cast<std::size_t>(count) * static_cast<std::size_t>(values_per_particle);
-  add_field(type, field, count, values_per_particle, Column(std::move(owner), values, size));
+  add_field(type, field, count, values_per_particle, {Column(std::move(owner), values, size), {}});
 }
 
 void ArraySnapshot::set_field(int type, const std::string& field, const double* values,
@@ -127,8 +134,28 @@ void ArraySnapshot::set_field(int type, const std::string& field, const double* 
   for (std::size_t i = 0; i < size; ++i) {
     floats[i] = static_cast<float>(is_position ? values[i] - origin_.a[i % 3] : values[i]);
   }
-  add_field(type, field, count, values_per_particle, Column::owning(std::move(floats)));
+  add_field(type, field, count, values_per_particle, {Column::owning(std::move(floats)), {}});
   has_double_positions_ = has_double_positions_ || is_position;
+}
+
+template <typename Whole>
+void ArraySnapshot::add_whole(int type, const std::string& field, const Whole* values,
+                              std::uint64_t count) {
+  check(type, field, 1, values, count);
+  std::vector<float> floats(count);
+  std::transform(values, values + count, floats.begin(),
+                 [](Whole value) { return static_cast<float>(value); });
+  add_field(type, field, count, 1, {Column::owning(std::move(floats)), {values, values + count}});
+}
+
+void ArraySnapshot::set_field(int type, const std::string& field, const std::int64_t* values,
+                              std::uint64_t count) {
+  add_whole(type, field, values, count);
+}
+
+void ArraySnapshot::set_field(int type, const std::string& field, const std::uint64_t* values,
+                              std::uint64_t count) {
+  add_whole(type, field, values, count);
 }
 
 void ArraySnapshot::set_unit(int type, const std::string& field, const std::string& unit) {
@@ -170,8 +197,8 @@ void ArraySnapshot::clear(int type) {
   info_.types.erase(std::remove_if(info_.types.begin(), info_.types.end(),
                                    [type](const ParticleTypeInfo& t) { return t.type == type; }),
                     info_.types.end());
-  for (auto column = columns_.begin(); column != columns_.end();)
-    column = column->first.first == type ? columns_.erase(column) : std::next(column);
+  for (auto values = values_.begin(); values != values_.end();)
+    values = values->first.first == type ? values_.erase(values) : std::next(values);
 }
 
 void ArraySnapshot::set_box_size(const BoxSides& sides) {
@@ -212,7 +239,13 @@ void ArraySnapshot::set_position_origin(const Vec3& origin) {
 
 Column ArraySnapshot::read(int type, const std::string& field) const {
   const FieldInfo& info = require_field(info_, type, field);
-  return columns_.at({type, info.file_name});
+  return values_.at({type, info.file_name}).column;
+}
+
+std::vector<std::uint64_t> ArraySnapshot::read_integers(int type, const std::string& field) const {
+  const FieldInfo& info = require_field(info_, type, field);
+  const std::vector<std::uint64_t>& whole = values_.at({type, info.file_name}).whole;
+  return whole.empty() ? Snapshot::read_integers(type, field) : whole;
 }
 
 }  // namespace splotchcl

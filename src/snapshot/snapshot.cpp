@@ -22,16 +22,8 @@ bool SnapshotInfo::is_whole() const {
                      [](const ParticleTypeInfo& type) { return type.particles_per_drawn == 1; });
 }
 
-// Arrays in memory may have them among other numbers.
 std::vector<std::uint64_t> Snapshot::read_ids(int type) const {
-  const ParticleTypeInfo* const particles = info().find_type(type);
-  const FieldInfo* const stored = particles == nullptr ? nullptr : find_field(*particles, "id");
-  if (stored != nullptr) return read_integers(type, stored->name);
-  throw DataError(
-      fmt::format("{}: its format ({}) has no ids for particles of type {}; expected ids, by which "
-                  "particles of "
-                  "different snapshots are matched: use a snapshot with ids",
-                  info().files.front().string(), info().format, type));
+  return read_integers(type, require_ids(info(), type).name);
 }
 
 // For formats that keep all numbers as floats: a float holds each whole number to 2^24.

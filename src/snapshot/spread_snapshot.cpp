@@ -254,6 +254,11 @@ class SpreadSnapshot::OwnPart final : public Snapshot {
     if (count_of(info_, type) == 0) return Column::owning({});
     return own_.read(type, info.name);
   }
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override {
+    const FieldInfo& info = require_field(info_, type, field);
+    if (count_of(info_, type) == 0) return {};
+    return own_.read_integers(type, info.name);
+  }
   std::uint64_t place_in_file(int type, std::uint64_t i) const override {
     return first_places_.at(type) + i;
   }

@@ -263,6 +263,13 @@ TEST_F(SnapshotFolder, MayHoldMapsBesideItsSnapshot) {
   EXPECT_EQ(open_snapshot(folder_.path())->info().files.front(), folder_ / "snap_001");
 }
 
+TEST_F(SnapshotFolder, MayHoldLinksThatLeadNowhere) {
+  write_gadget(folder_ / "snap_001", small_snapshot(), 2);
+  std::filesystem::create_symlink("loop", folder_ / "loop");
+  std::filesystem::create_symlink("gone", folder_ / "old");
+  EXPECT_EQ(open_snapshot(folder_.path())->info().files.front(), folder_ / "snap_001");
+}
+
 TEST_F(SnapshotFolder, OfAMapAloneIsRefusedForWhatItHolds) {
   write_map(folder_ / "sigma.hdf5");
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("sigma.hdf5: holds a map"));

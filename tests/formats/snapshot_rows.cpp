@@ -1,5 +1,7 @@
 #include "formats/snapshot_rows.h"
 
+#include <fmt/format.h>
+
 #include "snapshot/field_names.h"
 #include "text_rows.h"
 
@@ -107,10 +109,10 @@ void expect_of_type(const Snapshot& snapshot, std::string what, std::string valu
   } else if (field == "fields") {
     EXPECT_EQ(std::to_string(particles->fields.size()), value);
   } else if (field == "ids") {
-    std::string found;
-    for (const std::uint64_t id : snapshot.read_ids(type))
-      found += (found.empty() ? "" : " ") + std::to_string(id);
-    EXPECT_EQ(found, value);
+    EXPECT_EQ(fmt::format("{}", fmt::join(snapshot.read_ids(type), " ")), value);
+  } else if (field == "whole") {
+    const std::string of = first_word(value);
+    EXPECT_EQ(fmt::format("{}", fmt::join(snapshot.read_integers(type, of), " ")), value);
   } else {
     expect_field(snapshot, type, field, value);
   }

@@ -11,10 +11,10 @@ struct SnapshotRow {
   std::vector<std::string> contents;
   // Between " | ": "FIELD VALUES", of which positions are from 0; "unit FIELD U", "no FIELD", "no
   // unit FIELD" and "count N", of the first type or of the one after FIELD or count ("mass/4 7 8");
-  // "table_mass M", "types N", "fields N", "ids NUMBERS", "format F", "time T", "redshift Z",
-  // "hubble H", "box SIDES", "origin X", "no box" (or cosmology, redshift), "note PART OF ONE",
-  // "notes N", "no notes"; or "refused PART OF THE MESSAGE", where it is opened, "unreadable",
-  // where it is read after that, and "misuse" where the call is wrong.
+  // "table_mass M", "types N", "fields N", "ids NUMBERS", "whole FIELD NUMBERS", "format F", "time
+  // T", "redshift Z", "hubble H", "box SIDES", "origin X", "no box" (or cosmology, redshift), "note
+  // PART OF ONE", "notes N", "no notes"; or "refused PART OF THE MESSAGE", where it is opened,
+  // "unreadable", where it is read after that, and "misuse" where the call is wrong.
   std::string expected;
   SnapshotOptions options = {};
 };

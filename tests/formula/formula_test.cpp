@@ -94,6 +94,30 @@ TEST(Formula, ComparesWholeNumbersOf64BitsExactly) {
   EXPECT_THROW(evaluate("id / 2", unsigned_ids, 3), DataError);
 }
 
+TEST(Formula, ComparesWholeNumbersExactlyHoweverTheyAreWritten) {
+  const auto whole = [](std::vector<std::uint64_t> numbers, bool are_signed) {
+    FormulaSources values = sources({});
+    const auto shared = std::make_shared<const std::vector<std::uint64_t>>(std::move(numbers));
+    values.whole_numbers = [=](const std::string&, bool) {
+      return WholeNumbers{shared, are_signed};
+    };
+    return values;
+  };
+  constexpr std::uint64_t large = 1000000000000000000;
+  const FormulaSources some = whole({large - 1, large, large + 1}, false);
+  for (const std::string number : {"1e18", "1E+18", "1.000e18", "10e17", "1000000000000000000.0"})
+    EXPECT_THAT(evaluate("x == " + number, some, 3), ElementsAre(0, 1, 0)) << number;
+  EXPECT_THAT(evaluate("x < 1.000000000000000001e18", some, 3), ElementsAre(1, 1, 0));
+  EXPECT_THAT(evaluate("x < 1e300", some, 3), ElementsAre(1, 1, 1));
+  EXPECT_THAT(evaluate("x > 999999999999999872.5", some, 3), ElementsAre(1, 1, 1));
+  const FormulaSources below = whole({0 - large - 1, 0 - large, 1 - large, 1}, true);
+  EXPECT_THAT(evaluate("x == -1000000000000000001", below, 4), ElementsAre(1, 0, 0, 0));
+  EXPECT_THAT(evaluate("x > -1e18", below, 4), ElementsAre(0, 0, 1, 1));
+  EXPECT_THAT(evaluate("x <= -1e18", below, 4), ElementsAre(1, 1, 0, 0));
+  EXPECT_THAT(evaluate("x > 0.5", below, 4), ElementsAre(0, 0, 0, 1));
+  EXPECT_THAT(evaluate("x > -1e300", below, 4), ElementsAre(1, 1, 1, 1));
+}
+
 TEST(Formula, AsksForWholeNumbersOfAnyFieldThatIsComparedWithOneBeyondFloats) {
   const auto numbers = std::make_shared<const std::vector<std::uint64_t>>(
       std::vector<std::uint64_t>{16777216, 16777217, 18446744073709551615U});

@@ -149,7 +149,11 @@ class Caller {
         c.number(6) == 0 ? too_many[c.number(too_many.size())] : c.number(most_particles + 1);
     const int width = c.number(4) == 0 ? static_cast<int>(c.number(5)) - 1 : 3;
     const bool is_null = c.number(9) == 0;
-    if (c.number(2) == 0) {
+    if (c.number(9) == 0) {
+      const auto* const integers = reinterpret_cast<const std::int64_t*>(doubles_.data());
+      splotchcl_particles_set_integers(particles_, of_type, field, is_null ? nullptr : integers,
+                                       count, e);
+    } else if (c.number(2) == 0) {
       splotchcl_particles_set_floats(particles_, of_type, field, is_null ? nullptr : floats_.data(),
                                      count, width, e);
     } else {

@@ -127,6 +127,35 @@ TEST_F(ImageFile, AppliesTheGammaToEightBitsOnly) {
   EXPECT_EQ(read_image(folder_ / "a.exr").at(0, 0)[0], 0.25F);
 }
 
+// Of a picture of two rows, abc and def.
+TEST_F(ImageFile, IsReadUprightHoweverTheCameraWasHeld) {
+  Image image(3, 2);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = static_cast<float>(51 * (i / 4)) / 255;
+  write_image(folder_ / "a.tif", image, {1, false, {}});
+  std::ifstream in(folder_ / "a.tif", std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(in), {});
+  const std::size_t tag = bytes.find(std::string("\x12\x01\x03\0\1\0\0\0", 8));
+  ASSERT_NE(tag, std::string::npos);
+  const std::vector<std::string> expected = {"abcdef", "cbafed", "fedcba", "defabc",
+                                             "adbecf", "daebfc", "fcebda", "cfbead"};
+  for (std::size_t orientation = 1; orientation <= expected.size(); ++orientation) {
+    bytes[tag + 8] = static_cast<char>(orientation);
+    std::ofstream(folder_ / "b.tif", std::ios::binary) << bytes;
+    LinearImageOptions linear;
+    linear.gamma = 1;
+    for (const Image& read :
+         {read_image(folder_ / "b.tif"), read_linear_image(folder_ / "b.tif", linear)}) {
+      std::string found;
+      for (std::size_t i = 0; i < read.pixels.size(); i += 4)
+        found += static_cast<char>('a' + std::lround(read.pixels[i] * 5));
+      EXPECT_EQ(found, expected[orientation - 1]) << orientation;
+      EXPECT_EQ(read.width, orientation < 5 ? 3 : 2);
+      EXPECT_EQ(read_image_info(folder_ / "b.tif").width, read.width);
+    }
+  }
+}
+
 TEST_F(ImageFile, ClampsColorsBeyondWhiteInEightBits) {
   Image image(1, 1);
   image.pixels = {7, -1, std::numeric_limits<float>::infinity(), 1};

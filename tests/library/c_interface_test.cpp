@@ -162,6 +162,23 @@ TEST_F(CInterface, CountsThatOverflowAreRefused) {
   EXPECT_EQ(draw(), 0) << error_.message;
 }
 
+TEST_F(CInterface, IntegersBeyondFloatsAreTakenForConditions) {
+  const std::vector<std::int64_t> ids = {(std::int64_t{1} << 60) + 1, std::int64_t{1} << 60};
+  splotchcl_particles* const p = particles_.get();
+  ASSERT_EQ(splotchcl_particles_set_integers(p, 1, "tracer", ids.data(), 2, &error_), 0);
+  ASSERT_EQ(
+      splotchcl_scene_set(scene_.get(),
+                          R"(component.0.select.where=["tracer == 1152921504606846976"])", &error_),
+      0);
+  ASSERT_EQ(draw(), 0) << error_.message;
+  const std::vector<float> of_two = image_;
+  ASSERT_EQ(splotchcl_particles_clear(p, 1, &error_), 0);
+  ASSERT_EQ(splotchcl_particles_set_floats(p, 1, "position", &position_[3], 1, 3, &error_), 0);
+  ASSERT_EQ(splotchcl_particles_set_integers(p, 1, "tracer", &ids[1], 1, &error_), 0);
+  ASSERT_EQ(draw(), 0) << error_.message;
+  EXPECT_EQ(of_two, image_);
+}
+
 TEST_F(CInterface, TypesThatAreNoneAreRefused) {
   splotchcl_particles* const p = particles_.get();
   for (const int type : {-1, 32, 1 << 30}) {

@@ -80,6 +80,16 @@ TEST(MapUnits, AreNeverGuessed) {
   EXPECT_THAT(refusal(scene), HasSubstr("code_mass/code_length^2"));
 }
 
+TEST(MapUnits, ThatAreNotKnownAreToldFromThoseThatAreNotSaid) {
+  test::MemorySnapshot snapshot = wide_particle().snapshot();
+  snapshot.set_unit(0, "mass", "Msun");
+  snapshot.set_unit(0, "position", "furlong");
+  Scene scene = map_scene();
+  scene.map.unit = "Msun/pc^2";
+  EXPECT_THAT(refusal_by<Error>([&] { map_of(scene, snapshot); }),
+              HasSubstr("in Msun/furlong^2, since the snapshot does not say units that are known"));
+}
+
 TEST(MapUnits, ThatLackTheSnapshotsFactorsSayWhich) {
   test::MemorySnapshot snapshot = wide_particle().snapshot();
   snapshot.set_unit(0, "mass", "Msun/h");

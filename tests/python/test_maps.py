@@ -110,6 +110,22 @@ def test_a_part_of_a_snapshot_is_read(universe):
     )
 
 
+# Neighbours that were read are as many times as many particles. Sums of 8 scatter by a third.
+def test_densities_of_a_part_are_those_of_all(tmp_path):
+    position = np.random.default_rng(1).random((8000, 3))
+    np.savez(tmp_path / "even.npz", pos=position, mass=np.full(8000, 1 / 8000))
+    medians = [
+        np.median(splotchcl.Snapshot(tmp_path / "even.npz", read={"every": every})["gas"]["density"])
+        for every in (1, 10)
+    ]
+    assert medians == pytest.approx([1, 1], rel=0.35)
+    part = splotchcl.column(
+        tmp_path / "even.npz", "density", weight="volume", center=(0.5, 0.5, 0.5), width=0.5, size=(8, 8),
+        settings={"read.every": 10},
+    )  # fmt: skip
+    assert part.values.mean() == pytest.approx(1, rel=0.35)
+
+
 def test_what_is_no_snapshot_is_a_data_error(tmp_path):
     (tmp_path / "rubbish").write_bytes(b"\0\1\2\3" * 100)
     with pytest.raises(DataError, match="rubbish"):

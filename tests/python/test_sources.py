@@ -59,9 +59,14 @@ def test_a_file_without_identifiers_names_its_fields(tmp_path):
         gas["id"]
 
 
-def test_identifiers_of_arrays_are_floats():
-    particles = Particles().gas(**make_arrays(3), id=[1, 2, 3])
-    assert particles["gas"]["id"].dtype == np.float32
+@pytest.mark.parametrize("first", [-5, 2**24, 2**60, 2**64 - 9])
+def test_whole_numbers_of_arrays_are_exact(first):
+    numbers = np.array(range(first, first + 9), np.int64 if first < 0 else np.uint64)
+    particles = Particles().gas(**make_arrays(9), id=numbers[::-1], tracer=numbers)
+    assert np.array_equal(particles["gas"]["id"], numbers[::-1].astype(np.uint64))
+    for condition, count in ((f"tracer == {first + 4}", 1), (f"tracer > {first + 4}", 4)):
+        drawn = splotchcl.column(particles, "counts", where=condition, center=(5, 5, 5), width=40)
+        assert drawn.values.sum(dtype=float) == pytest.approx(count, rel=1e-3), condition
 
 
 def test_a_part_of_a_snapshot_has_its_identifiers(tmp_path):

@@ -93,6 +93,34 @@ def test_a_profile_of_a_file_is_that_of_its_arrays(universe):
     assert found.weights.sum() > 0 and found.bad == 0
 
 
+@pytest.mark.parametrize("read", [{"every": 3}, {"max_particles": 1000}])
+def test_particles_of_a_part_stand_for_those_left_out(universe, read):
+    whole, part = splotchcl.Snapshot(universe), splotchcl.Snapshot(universe, read=read)
+    shells = {"types": "gas,stars", "center": (5000, 5000, 5000), "edges": [0, 1e5]}
+    count = sum(len(kind) for kind in whole.types.values())
+    found = splotchcl.profile(part, "counts", **shells)
+    assert found.weights == pytest.approx([count])
+    assert found.counts == [sum(len(kind) for kind in part.types.values())]
+    gas = splotchcl.histogram(part, "x", "y", weight="constant")
+    assert gas.values.sum() == pytest.approx(len(whole["gas"]))
+    mass = splotchcl.histogram(part, "x", "y").values.sum()
+    assert mass == pytest.approx(whole["gas"]["mass"].sum(dtype=float), rel=0.1)
+    assert part["gas"].particles_per_read == pytest.approx(len(whole["gas"]) / len(part["gas"]))
+
+
+def test_types_in_several_units_are_refused(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "a.hdf5", "w") as file:
+        for kind, unit in (("PartType0", "kpc"), ("PartType1", "Mpc")):
+            file[f"{kind}/Coordinates"], file[f"{kind}/Masses"] = ball(10), np.ones(10)
+            file[f"{kind}/Coordinates"].attrs["units"] = unit
+        file.create_group("Header").attrs["NumPart_ThisFile"] = [10, 10, 0, 0, 0, 0]
+    snapshot = splotchcl.Snapshot(tmp_path / "a.hdf5")
+    assert splotchcl.profile(snapshot, types="halo", center=(0, 0, 0)).length_unit == "Mpc"
+    with pytest.raises(UsageError, match="'Mpc', 'kpc' of gas, halo"):
+        splotchcl.profile(snapshot, types="gas,halo", center=(0, 0, 0))
+
+
 @pytest.mark.parametrize("wrong", [
     {"center": "box"}, {"center": (1, 2)}, {"edges": [1, 0]}, {"edges": [1]}, {"inner": 2, "outer": 1},
     {"types": ()}, {"types": "stars"}, {"field": "nothing"}, {"bins": 2.5}, {"bins": (2, 3)},

@@ -28,6 +28,26 @@ TEST(LinearPositions, FollowIdsThatAreInAnotherOrder) {
   EXPECT_THAT(middle.read_ids(0), ElementsAre(7, 8, 9));
 }
 
+TEST(WholeNumbers, AreThoseOfTheFirstSnapshotThatHasTheParticle) {
+  const std::vector<float> halo_ids = {1, 3, 1};
+  const auto first = MovingSnapshot(0)
+                         .ids(0, {7, 8})
+                         .positions(0, {0, 0, 0, 10, 0, 0})
+                         .field(0, "tracer", {40, 50})
+                         .field(0, "halo_id", {1, 3})
+                         .make();
+  const auto second = MovingSnapshot(1)
+                          .ids(0, {9, 7, 8})
+                          .positions(0, {22, 0, 0, 2, 0, 0, 12, 0, 0})
+                          .field(0, "tracer", {60, 70, 80})
+                          .field(0, "halo_id", {1, 3, 1})
+                          .make();
+  const InterpolatedSnapshot middle = between(first, second, 0.5);
+  EXPECT_THAT(middle.read_integers(0, "tracer"), ElementsAre(40, 50, 60));
+  EXPECT_EQ(values(middle, "halo_id"), halo_ids);
+  EXPECT_THROW(middle.read_integers(0, "halo_id"), UsageError);
+}
+
 TEST(LinearPositions, TellApartIdsBeyondSinglePrecision) {
   constexpr std::uint64_t large = std::uint64_t{1} << 63;
   const auto first =

@@ -55,7 +55,7 @@ class GadgetBinarySnapshot : public Snapshot {
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
-  std::vector<std::uint64_t> read_ids(int type) const override;
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
   Vec3 position_origin() const override { return origin_; }
 
  private:
@@ -157,11 +157,12 @@ Column GadgetBinarySnapshot::read(int type, const std::string& name) const {
   return make_column(find_parts(type, field.file_name), origin);
 }
 
-std::vector<std::uint64_t> GadgetBinarySnapshot::read_ids(int type) const {
-  const FieldInfo& field = require_ids(info_, type);
-  auto ids = make_integers(find_parts(type, field.file_name));
-  if (!ids) refuse_ids(info_, type, field);
-  return std::move(*ids);
+std::vector<std::uint64_t> GadgetBinarySnapshot::read_integers(int type,
+                                                               const std::string& name) const {
+  const FieldInfo& field = require_field(info_, type, name);
+  auto numbers = make_integers(find_parts(type, field.file_name));
+  if (!numbers) refuse_integers(info_, type, field);
+  return std::move(*numbers);
 }
 
 class GadgetBinaryFormat : public SnapshotFormat {

@@ -11,7 +11,6 @@
 #include "splotchcl/error.h"
 
 namespace splotchcl {
-namespace {
 
 enum class Carriers { all, gas, stars, gas_and_stars, without_table_mass };
 
@@ -19,38 +18,28 @@ struct StandardBlock {
   std::string_view label;
   Carriers carriers;
   int values_per_particle;
-  bool is_integer;
   bool must_fit;  // else the label may mean something else in another code
 };
 
+namespace {
+
 constexpr std::array<StandardBlock, 20> standard_blocks = {{
-    {"POS", Carriers::all, 3, false, true},
-    {"VEL", Carriers::all, 3, false, true},
-    {"ID", Carriers::all, 1, true, true},
-    {"MASS", Carriers::without_table_mass, 1, false, true},
-    {"MASS", Carriers::all, 1, false, true},
-    {"U", Carriers::gas, 1, false, true},
-    {"RHO", Carriers::gas, 1, false, true},
-    {"HSML", Carriers::gas, 1, false, true},
-    {"HSML", Carriers::all, 1, false, true},
-    {"HSMS", Carriers::stars, 1, false, false},
-    {"AGE", Carriers::stars, 1, false, false},
-    {"NE", Carriers::gas, 1, false, false},
-    {"NH", Carriers::gas, 1, false, false},
-    {"SFR", Carriers::gas, 1, false, false},
-    {"TEMP", Carriers::gas, 1, false, false},
-    {"Z", Carriers::gas_and_stars, 1, false, false},
-    {"BFLD", Carriers::gas, 3, false, false},
-    {"POT", Carriers::all, 1, false, false},
-    {"ACCE", Carriers::all, 3, false, false},
-    {"TSTP", Carriers::all, 1, false, false},
+    {"POS", Carriers::all, 3, true},    {"VEL", Carriers::all, 3, true},
+    {"ID", Carriers::all, 1, true},     {"MASS", Carriers::without_table_mass, 1, true},
+    {"MASS", Carriers::all, 1, true},   {"U", Carriers::gas, 1, true},
+    {"RHO", Carriers::gas, 1, true},    {"HSML", Carriers::gas, 1, true},
+    {"HSML", Carriers::all, 1, true},   {"HSMS", Carriers::stars, 1, false},
+    {"AGE", Carriers::stars, 1, false}, {"NE", Carriers::gas, 1, false},
+    {"NH", Carriers::gas, 1, false},    {"SFR", Carriers::gas, 1, false},
+    {"TEMP", Carriers::gas, 1, false},  {"Z", Carriers::gas_and_stars, 1, false},
+    {"BFLD", Carriers::gas, 3, false},  {"POT", Carriers::all, 1, false},
+    {"ACCE", Carriers::all, 3, false},  {"TSTP", Carriers::all, 1, false},
 }};
 
 constexpr TypeSet gas = 1U << 0;
 constexpr TypeSet stars = 1U << 4;
 
-ValueKind kind_of(bool is_integer, bool is_wide) {
-  if (is_integer) return is_wide ? ValueKind::uint64 : ValueKind::uint32;
+ValueKind kind_of(bool is_wide) {
   return is_wide ? ValueKind::float64 : ValueKind::float32;
 }
 
@@ -66,7 +55,7 @@ bool is_standard_block(std::string_view label) {
       [label](const StandardBlock& block) { return block.label == label && block.must_fit; });
 }
 
-BlockLayouts::BlockLayouts(const GadgetHeader& header, std::uint64_t position_bytes,
+BlockLayouts::BlockLayouts(const GadgetHeader& header, std::uint64_t vector_bytes,
                            std::vector<BlockDescription> descriptions)
     : counts_(header.counts), descriptions_(std::move(descriptions)) {
   for (std::size_t type = 0; type < counts_.size(); ++type) {
@@ -74,7 +63,7 @@ BlockLayouts::BlockLayouts(const GadgetHeader& header, std::uint64_t position_by
     present_ |= 1U << type;
     if (header.table_masses[type] == 0) without_table_mass_ |= 1U << type;
   }
-  is_double_ = position_bytes == particles_in(present_) * 3 * sizeof(double);
+  is_double_ = vector_bytes == particles_in(present_) * 3 * sizeof(double);
 }
 
 std::uint64_t BlockLayouts::particles_in(TypeSet types) const {
@@ -86,34 +75,64 @@ std::uint64_t BlockLayouts::particles_in(TypeSet types) const {
 }
 
 std::optional<BlockLayout> BlockLayouts::fit(std::uint64_t bytes, TypeSet types, int values,
-                                             bool is_integer) const {
+                                             bool is_wide) const {
   types &= present_;
   const std::uint64_t numbers = particles_in(types) * static_cast<std::uint64_t>(values);
-  if (numbers == 0) return std::nullopt;
-  for (const bool is_wide : {false, true}) {
-    const BlockLayout layout = {types, values, kind_of(is_integer, is_wide)};
-    if (bytes == numbers * size_of(layout.kind)) return layout;
-  }
-  if (is_integer && bytes == numbers * size_of(ValueKind::uint48)) {
-    return BlockLayout{types, values, ValueKind::uint48};
+  const BlockLayout layout = {types, values, kind_of(is_wide)};
+  if (numbers == 0 || bytes != numbers * size_of(layout.kind)) return std::nullopt;
+  return layout;
+}
+
+std::optional<BlockLayout> BlockLayouts::fit_ids(std::uint64_t bytes) const {
+  for (const ValueKind kind : {ValueKind::uint32, ValueKind::uint64, ValueKind::uint48}) {
+    if (bytes == particles_in(present_) * size_of(kind)) return BlockLayout{present_, 1, kind};
   }
   return std::nullopt;
 }
 
-std::optional<BlockLayout> BlockLayouts::fit_standard(std::string_view label,
-                                                      std::uint64_t bytes) const {
+TypeSet BlockLayouts::types_of(const StandardBlock& block) const {
+  switch (block.carriers) {
+    case Carriers::gas:
+      return gas;
+    case Carriers::stars:
+      return stars;
+    case Carriers::gas_and_stars:
+      return gas | stars;
+    case Carriers::without_table_mass:
+      return without_table_mass_;
+    case Carriers::all:
+      break;
+  }
+  return present_;
+}
+
+std::optional<BlockLayout> BlockLayouts::fit_carriers(std::string_view label, std::uint64_t bytes,
+                                                      bool is_wide, bool or_all) const {
   for (const StandardBlock& block : standard_blocks) {
     if (block.label != label) continue;
-    TypeSet types = present_;
-    if (block.carriers == Carriers::gas) types = gas;
-    if (block.carriers == Carriers::stars) types = stars;
-    if (block.carriers == Carriers::gas_and_stars) types = gas | stars;
-    if (block.carriers == Carriers::without_table_mass) types = without_table_mass_;
-    if (const auto layout = fit(bytes, types, block.values_per_particle, block.is_integer)) {
-      return layout;
-    }
+    const int values = block.values_per_particle;
+    if (const auto layout = fit(bytes, types_of(block), values, is_wide)) return layout;
+    if (!or_all) continue;
+    if (const auto layout = fit(bytes, present_, values, is_wide)) return layout;
   }
   return std::nullopt;
+}
+
+bool BlockLayouts::may_be_of_fewer(std::string_view label, const BlockLayout& layout) const {
+  const std::uint64_t bytes = particles_in(layout.types) *
+                              static_cast<std::uint64_t>(layout.values_per_particle) *
+                              size_of(layout.kind);
+  const auto other = label == "ID" ? std::nullopt : fit_carriers(label, bytes, !is_double_, false);
+  return other && particles_in(other->types) < particles_in(layout.types);
+}
+
+// Numbers of single precision for two types are as long as those of double precision for one of
+// them, if this has as many particles as the other.
+std::optional<BlockLayout> BlockLayouts::fit_standard(std::string_view label, std::uint64_t bytes,
+                                                      bool or_all) const {
+  if (label == "ID") return fit_ids(bytes);
+  const auto like_vectors = fit_carriers(label, bytes, is_double_, or_all);
+  return like_vectors ? like_vectors : fit_carriers(label, bytes, !is_double_, false);
 }
 
 std::optional<BlockLayout> BlockLayouts::fit_description(std::string_view label,
@@ -155,7 +174,7 @@ std::optional<BlockLayout> BlockLayouts::fit_any(std::uint64_t bytes, bool& is_a
   for (const bool is_wide : {is_double_, !is_double_}) {
     for (const TypeSet types : candidate_sets()) {
       for (const int values : {1, 3}) {
-        const BlockLayout layout = {types, values, kind_of(false, is_wide)};
+        const BlockLayout layout = {types, values, kind_of(is_wide)};
         const std::uint64_t numbers = particles_in(types) * static_cast<std::uint64_t>(values);
         if (bytes != numbers * size_of(layout.kind)) continue;
         if (first && !same_layout(*first, layout)) is_ambiguous = true;

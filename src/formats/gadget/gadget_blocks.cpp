@@ -218,12 +218,31 @@ std::string list_counts(const GadgetHeader& header) {
                   file.file->path().string(), found));
 }
 
-std::uint64_t position_bytes(const GadgetBinaryFile& file) {
-  const auto found =
+// Codes with positions in double precision may have all else in single precision, so velocities
+// tell more. Three values for each particle, nothing else is as long in format 1.
+std::uint64_t bytes_of_vectors(const GadgetBinaryFile& file) {
+  const auto positions =
       std::find_if(file.records.begin(), file.records.end(),
                    [&](const GadgetRecord& r) { return file.format == 1 || r.label == "POS"; });
-  if (found == file.records.end()) throw_no_positions(file);
-  return found->bytes;
+  if (positions == file.records.end()) throw_no_positions(file);
+  const auto velocities =
+      std::find_if(file.format == 1 ? positions + 1 : file.records.begin(), file.records.end(),
+                   [&](const GadgetRecord& r) { return file.format == 1 || r.label == "VEL"; });
+  const bool are_vectors =
+      velocities != file.records.end() &&
+      (velocities->bytes == positions->bytes || velocities->bytes == positions->bytes / 2 ||
+       velocities->bytes == positions->bytes * 2);
+  return are_vectors ? velocities->bytes : positions->bytes;
+}
+
+std::string several_fit(const std::string& label, const BlockLayout& layout) {
+  std::vector<int> types;
+  for (int type = 0; type < 6; ++type) {
+    if ((layout.types >> type & 1U) != 0) types.push_back(type);
+  }
+  return fmt::format(
+      "block {} fits several sets of particle types by its length; taken for type {}", label,
+      fmt::join(types, " and "));
 }
 
 // A block whose meaning only its length tells.
@@ -238,15 +257,7 @@ void add_by_length(const BlockLayouts& layouts, const GadgetRecord& record,
                     label, record.bytes));
     return;
   }
-  if (is_ambiguous) {
-    std::vector<int> types;
-    for (int type = 0; type < 6; ++type) {
-      if ((layout->types >> type & 1U) != 0) types.push_back(type);
-    }
-    notes.push_back(
-        fmt::format("block {} fits several sets of particle types by its length; taken for type {}",
-                    label, fmt::join(types, " and ")));
-  }
+  if (is_ambiguous) notes.push_back(several_fit(label, *layout));
   blocks.push_back({label, record.offset, *layout});
 }
 
@@ -270,7 +281,11 @@ std::vector<GadgetBlock> understand_labelled(const GadgetBinaryFile& file,
                                   record.label, layout->values_per_particle));
       continue;
     }
-    if (!layout || !is_drawable) layout = layouts.fit_standard(record.label, record.bytes);
+    if (!layout || !is_drawable) {
+      layout = layouts.fit_standard(record.label, record.bytes, true);
+      const bool is_unsure = layout && layouts.may_be_of_fewer(record.label, *layout);
+      if (is_unsure) notes.push_back(several_fit(record.label, *layout));
+    }
     if (layout) {
       blocks.push_back({record.label, record.offset, *layout});
     } else if (is_standard_block(record.label)) {
@@ -339,7 +354,7 @@ void count_by_blocks(GadgetBinaryFile& file, Notes& notes) {
 
 std::vector<GadgetBlock> understand_records(const GadgetBinaryFile& file, Notes& notes) {
   if (file.header.particles() == 0) return {};
-  const BlockLayouts layouts(file.header, position_bytes(file), read_descriptions(file));
+  const BlockLayouts layouts(file.header, bytes_of_vectors(file), read_descriptions(file));
   return file.format == 1 ? understand_unlabelled(file, layouts, notes)
                           : understand_labelled(file, layouts, notes);
 }

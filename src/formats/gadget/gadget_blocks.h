@@ -29,17 +29,24 @@ struct BlockDescription {
   BlockLayout layout;
 };
 
+struct StandardBlock;
+
 // Finds out, from lengths and the header's counts, which types a block is for, whether it
 // holds scalars or 3-vectors, and in which precision.
 class BlockLayouts {
  public:
-  // `position_bytes` is the length of the block of positions, which decides which
+  // `vector_bytes` is the length of the block of velocities or positions, which decides which
   // precision is tried first.
-  BlockLayouts(const GadgetHeader& header, std::uint64_t position_bytes,
+  BlockLayouts(const GadgetHeader& header, std::uint64_t vector_bytes,
                std::vector<BlockDescription> descriptions = {});
 
-  // Whether `bytes` is right for a block of this standard label.
-  std::optional<BlockLayout> fit_standard(std::string_view label, std::uint64_t bytes) const;
+  // Whether `bytes` is right for a block of this standard label: of the types that have it in
+  // most codes or, `or_all`, of all types; rather in the precision of these vectors.
+  std::optional<BlockLayout> fit_standard(std::string_view label, std::uint64_t bytes,
+                                          bool or_all = false) const;
+
+  // Whether it is as long as one for fewer particles in the other precision, as most codes write.
+  bool may_be_of_fewer(std::string_view label, const BlockLayout& layout) const;
 
   // As the INFO block says, where its words agree with the length.
   std::optional<BlockLayout> fit_description(std::string_view label, std::uint64_t bytes) const;
@@ -54,7 +61,11 @@ class BlockLayouts {
 
  private:
   std::optional<BlockLayout> fit(std::uint64_t bytes, TypeSet types, int values,
-                                 bool is_integer) const;
+                                 bool is_wide) const;
+  TypeSet types_of(const StandardBlock& block) const;
+  std::optional<BlockLayout> fit_ids(std::uint64_t bytes) const;
+  std::optional<BlockLayout> fit_carriers(std::string_view label, std::uint64_t bytes, bool is_wide,
+                                          bool or_all) const;
   std::vector<TypeSet> candidate_sets() const;
 
   std::vector<std::uint64_t> counts_;

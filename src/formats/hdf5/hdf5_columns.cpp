@@ -118,16 +118,16 @@ bool add_axes(const Hdf5File& file, const std::string& group, Hdf5Columns& found
                         std::all_of(datasets.begin(), datasets.end(), is_axis) &&
                         std::all_of(groups.begin(), groups.end(), is_axis);
   if (!are_axes) return false;
+  const std::string vector = field_label(last_name(group));
   Hdf5Columns axes;
   for (const std::string& axis : datasets) {
     Hdf5Dataset dataset = file.dataset(path_in(group, axis));
     if (!is_column(dataset) || dataset.values_per_row() != 1) return false;
-    const std::string name = last_name(group) + " " + lower_case(axis), path = dataset.path;
+    const std::string name = vector + " " + lower_case(axis), path = dataset.path;
     axes.columns.push_back(column_of(name, path, std::move(dataset)));
   }
   for (const std::string& axis : groups) {
-    auto column =
-        constant_in(file, last_name(group) + " " + lower_case(axis), path_in(group, axis));
+    auto column = constant_in(file, vector + " " + lower_case(axis), path_in(group, axis));
     if (!column) return false;
     axes.columns.push_back(std::move(*column));
   }
@@ -284,12 +284,15 @@ bool is_dataset(const Hdf5File& file, const std::string& place) {
   return std::find(names.begin(), names.end(), place.substr(end + 1)) != names.end();
 }
 
-// Goes through a file's groups, but not without end: links may lead in circles.
+// Goes through a file's groups, but not without end: links may lead in circles. Other names of what
+// has been found would count particles twice; they are followed where nothing else is there.
 class GroupSearch {
  public:
   explicit GroupSearch(const Hdf5File& file) : file_(file) {}
   std::vector<std::string> find() {
     search("/", 0);
+    follows_other_names_ = true;
+    if (found_.empty()) search("/", 0);
     return std::move(found_);
   }
 
@@ -303,8 +306,8 @@ class GroupSearch {
     const bool is_one = have_positions(here, depth);
     if (is_one) found_.push_back(group);
     for (const Hdf5Dataset& dataset : file_.datasets(group)) {
-      const bool are_records =
-          dataset.kind == Hdf5Dataset::Kind::records && dataset.shape.size() == 1;
+      const bool are_records = dataset.kind == Hdf5Dataset::Kind::records &&
+                               dataset.shape.size() == 1 && counts(dataset.path);
       if (are_records && have_positions(columns_of_records(file_, dataset), depth))
         found_.push_back(dataset.path);
     }
@@ -312,8 +315,12 @@ class GroupSearch {
     for (const std::string& name : file_.groups(group)) {
       const bool is_used = is_one && std::find(here.used_groups.begin(), here.used_groups.end(),
                                                name) != here.used_groups.end();
-      if (!is_used) search(path_in(group, name), depth + 1);
+      const std::string path = path_in(group, name);
+      if (!is_used && counts(path)) search(path, depth + 1);
     }
+  }
+  bool counts(const std::string& path) const {
+    return follows_other_names_ || !file_.is_soft_link(path);
   }
   // What has another name is taken for positions only where particles usually are.
   static bool have_positions(const Hdf5Columns& found, int depth) {
@@ -330,6 +337,7 @@ class GroupSearch {
   const Hdf5File& file_;
   std::vector<std::string> found_;
   std::size_t visited_ = 0;
+  bool follows_other_names_ = false;
 };
 
 void list_group(const Hdf5File& file, const std::string& group, int depth, std::size_t most,

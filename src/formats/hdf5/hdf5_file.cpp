@@ -270,6 +270,13 @@ bool Hdf5File::has(const std::string& object) const {
   return H5Oexists_by_name(file_.id(), object.c_str(), rules_.of_links()) > 0;
 }
 
+bool Hdf5File::is_soft_link(const std::string& object) const {
+  const Hdf5Silence silence;
+  H5L_info_t link;
+  return H5Lget_info(file_.id(), object.c_str(), &link, rules_.of_links()) >= 0 &&
+         link.type == H5L_TYPE_SOFT;
+}
+
 std::vector<std::string> Hdf5File::groups(const std::string& group) const {
   const Hdf5Silence silence;
   return children(group, H5I_GROUP);
@@ -359,13 +366,15 @@ std::optional<std::vector<double>> Hdf5File::numbers(const std::string& object,
   const Type type(H5Aget_type(attribute.id()));
   const H5T_class_t kind = H5Tget_class(type.id());
   if (kind == H5T_STRING) return numbers_in(texts(attribute.id()));
-  if (kind != H5T_FLOAT && kind != H5T_INTEGER) return std::nullopt;
+  // h5py writes true and false as an enumeration.
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER && kind != H5T_ENUM) return std::nullopt;
   const Space space(H5Aget_space(attribute.id()));
   // Attributes live in object headers of at most 64 KiB or in dense storage; either way
   // the number of points is bounded by what HDF5 has already read.
   std::vector<double> values(
       static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space.id()))));
-  if (values.empty() || H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, values.data()) < 0) {
+  if (values.empty()) return std::nullopt;  // it states nothing
+  if (H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, values.data()) < 0) {
     fail(fmt::format("attribute {} of {} cannot be read", name, object));
   }
   return values;

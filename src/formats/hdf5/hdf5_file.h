@@ -150,6 +150,8 @@ class Hdf5File {
   // Where what has been asked for led, out of the file.
   const Hdf5Links& links() const { return *links_; }
   bool has(const std::string& object) const;
+  // Whether its name is another one for something in the file.
+  bool is_soft_link(const std::string& object) const;
   std::vector<std::string> groups(const std::string& group) const;    // names, sorted
   std::vector<Hdf5Dataset> datasets(const std::string& group) const;  // sorted by name
   std::vector<std::string> dataset_names(const std::string& group) const;

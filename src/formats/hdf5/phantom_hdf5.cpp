@@ -87,6 +87,7 @@ class PhantomSnapshot : public Snapshot {
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
   Vec3 position_origin() const override { return origin_; }
 
  private:
@@ -398,6 +399,19 @@ Column PhantomSnapshot::read(int type, const std::string& name) const {
   const Vec3 origin = field.name == "position" ? origin_ : Vec3{{0, 0, 0}};
   const double factor = field.name == "smoothing_length" ? kernel_radius_ : 1;
   return read_dataset(type, field.file_name, origin, factor);
+}
+
+std::vector<std::uint64_t> PhantomSnapshot::read_integers(int type, const std::string& name) const {
+  const FieldInfo& field = require_field(info_, type, name);
+  const ParticleField* const stored = find_particle_field(field.file_name);
+  if (stored == nullptr) return Snapshot::read_integers(type, name);
+  check_files_are_the_same(info_);
+  const auto all = splotchcl::read_integers({{info_.files.front(), stored->sources.front()}});
+  if (!all || stored->values_per_particle() != 1) refuse_integers(info_, type, field);
+  std::vector<std::uint64_t> numbers;
+  for (const std::size_t particle : types_.at(type).particles)
+    numbers.push_back((*all)[particle]);
+  return numbers;
 }
 
 }  // namespace

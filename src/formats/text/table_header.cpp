@@ -24,11 +24,26 @@ bool ends_with(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-// "Xc(6)", "#ID(1)" as the sixth and the first column, "x(17)" as the eighteenth; "2:x", "[2]=x".
+// The digits of a name that ends in "(6)", "[6]" or "{6}"; empty where it does not.
+std::string number_behind(const std::string& name) {
+  const std::size_t open = name.find_last_of("([{");
+  const bool is_behind = open != std::string::npos && open > 0 &&
+                         name.back() == (name[open] == '(' ? ')' : name[open] + 2);
+  if (!is_behind) return {};
+  const std::string digits = name.substr(open + 1, name.size() - open - 2);
+  const bool is_number = digits.find_first_not_of("0123456789") == std::string::npos;
+  return is_number && digits.size() < 6 ? digits : std::string();
+}
+
+std::string name_before_number(const std::string& name) {
+  return trimmed(name.substr(0, name.find_last_of("([{")));
+}
+
+// "Xc(6)", "#ID(1)" as the sixth and the first column, "x[17]" as the eighteenth; "2:x", "[2]=x".
 std::string without_number(const std::string& name, std::size_t column) {
   for (const std::size_t number : {column + 1, column}) {
     const std::string digits = std::to_string(number);
-    if (ends_with(name, "(" + digits + ")")) return name.substr(0, name.size() - digits.size() - 2);
+    if (number_behind(name) == digits) return name_before_number(name);
     for (const std::string& start : {digits + ":", "[" + digits + "]=", "[" + digits + "]"}) {
       const bool begins_with_it =
           name.size() > start.size() && name.compare(0, start.size(), start) == 0;
@@ -36,15 +51,6 @@ std::string without_number(const std::string& name, std::size_t column) {
     }
   }
   return name;
-}
-
-// The digits of a name that ends in "(6)"; empty where it does not.
-std::string number_behind(const std::string& name) {
-  const std::size_t open = name.rfind('(');
-  if (open == std::string::npos || open == 0 || name.back() != ')') return {};
-  const std::string digits = name.substr(open + 1, name.size() - open - 2);
-  const bool is_number = digits.find_first_not_of("0123456789") == std::string::npos;
-  return is_number && digits.size() < 6 ? digits : std::string();
 }
 
 // Whether each has a number behind it that grows from column to column: also where columns between
@@ -158,7 +164,7 @@ std::vector<std::string> with_units(const std::vector<std::string_view>& words) 
 }  // namespace
 
 std::vector<std::string> names_of_columns(std::string_view line, std::size_t wanted) {
-  for (const char candidate : {',', ';', ' '}) {
+  for (const char candidate : {',', ';', '|', '\t', ' '}) {
     const std::vector<std::string_view> words = split_cells(line, candidate);
     // Lines of SPLASH end in a comma.
     const auto end = words.end() - (words.size() > 2 && words.back().empty() ? 1 : 0);
@@ -194,7 +200,7 @@ std::vector<std::string> in_our_words(std::vector<std::string> names) {
   rename_numbered_axes(names);
   const bool have_numbers = are_numbered(names);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    names[i] = have_numbers ? names[i].substr(0, names[i].rfind('(')) : without_number(names[i], i);
+    names[i] = have_numbers ? name_before_number(names[i]) : without_number(names[i], i);
   }
   for (const char* const stem : {"", "V", "v"})
     rename_axes(names, stem, {"Xc", "Yc", "Zc"}, "", stem);

@@ -101,11 +101,19 @@ std::vector<std::string> names_in(const HeaderLines& header, std::size_t wanted)
   return names;
 }
 
+bool has_tabs_between(std::string_view line, std::size_t columns) {
+  if (line.find('\t') == std::string_view::npos) return false;
+  const std::vector<std::string_view> names = split_cells(line, '\t');
+  return names.size() == columns && std::none_of(names.begin(), names.end(), is_missing);
+}
+
 // Whether the line of names has so many of them apart by tabs: cells may then be empty.
 bool has_tabs(const HeaderLines& header, std::size_t columns) {
-  if (header.line.find('\t') == std::string_view::npos) return false;
-  const std::vector<std::string_view> names = split_cells(header.whole_line, '\t');
-  return names.size() == columns && std::none_of(names.begin(), names.end(), is_missing);
+  if (!header.line.empty()) return has_tabs_between(header.whole_line, columns);
+  return std::any_of(header.comments.begin(), header.comments.end(),
+                     [columns](std::string_view comment) {
+                       return has_tabs_between(without_blanks(comment), columns);
+                     });
 }
 
 // A line of a frame around a table: ===== ===== or |-----|.
@@ -124,12 +132,10 @@ void split_row(const TextLines& line, const HeaderLines& header, TableLayout& la
     layout.cells = cells_of(line, format);
     return;
   }
-  format.separator = find_separator(line.line());
-  layout.cells = cells_of(line, format);
-  if (format.separator == ',' && !is_row(layout.cells)) {
-    // Commas may be those of the numbers.
-    format.separator = ' ';
+  for (const char separator : possible_separators(line.line())) {
+    format.separator = separator;
     layout.cells = cells_of(line, format);
+    if (separator == ';' || is_row(layout.cells)) break;
   }
   const CellFormat tabs = {'\t', {}};
   const std::vector<std::string_view> apart_by_tabs = cells_of(line, tabs);
@@ -149,7 +155,7 @@ void name_columns(const HeaderLines& header, TableLayout& layout) {
     const std::size_t units = layout.format.places.empty() ? header.bars.size() : 2;
     layout.names = in_our_words(names_between_bars(header.bars, units));
     if (layout.names.size() != layout.cells.size()) layout.names.clear();
-  } else if (layout.format.separator == '\t') {
+  } else if (layout.format.separator == '\t' && !header.line.empty()) {
     const std::vector<std::string_view> names = split_cells(header.whole_line, '\t');
     layout.names = in_our_words({names.begin(), names.end()});
     add_ecsv_units(header.comments, layout.names);
@@ -160,7 +166,7 @@ void name_columns(const HeaderLines& header, TableLayout& layout) {
 
 // How many columns a line names, positions among them; 0 where it does not.
 std::size_t count_names(std::string_view line) {
-  for (const char separator : {',', ';', '\t', ' '}) {
+  for (const char separator : {',', ';', '|', '\t', ' '}) {
     std::vector<std::string_view> words = split_cells(line, separator);
     if (words.back().empty()) words.pop_back();
     if (name_positions(in_our_words({words.begin(), words.end()}))) return words.size();

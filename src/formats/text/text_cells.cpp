@@ -50,10 +50,10 @@ bool TextLines::next() {
 
 namespace {
 
+// Of a line in a frame. A bar at one end alone is beside an empty cell.
 std::string_view without_bars(std::string_view line) {
-  if (!line.empty() && line.front() == '|') line.remove_prefix(1);
-  if (!line.empty() && line.back() == '|') line.remove_suffix(1);
-  return line;
+  const bool is_framed = line.size() > 1 && line.front() == '|' && line.back() == '|';
+  return is_framed ? line.substr(1, line.size() - 2) : line;
 }
 
 // Takes the next cell off the line.
@@ -141,15 +141,20 @@ std::vector<std::string_view> split_cells(std::string_view line, char separator)
   return cells;
 }
 
-char find_separator(std::string_view line) {
+std::vector<char> possible_separators(std::string_view line) {
+  constexpr std::string_view known = ";,|";
+  std::string found;
   bool is_quoted = false;
-  char separator = ' ';
   for (const char c : line) {
     if (c == '"') is_quoted = !is_quoted;
-    if (!is_quoted && c == ';') return c;
-    if (!is_quoted && c == ',') separator = c;
+    if (!is_quoted && known.find(c) != std::string_view::npos) found += c;
   }
-  return separator;
+  std::vector<char> separators;
+  for (const char c : known) {
+    if (found.find(c) != std::string::npos) separators.push_back(c);
+  }
+  separators.push_back(' ');
+  return separators;
 }
 
 bool is_missing(std::string_view cell) {

@@ -70,9 +70,9 @@ class CellReader {
 std::vector<std::string_view> cells_of(const TextLines& line, const CellFormat& format);
 std::vector<std::string_view> split_cells(std::string_view line, char separator);
 
-// The separator of a line: a semicolon or comma outside of quotes, else white space. Between
-// semicolons a comma may be that of a number.
-char find_separator(std::string_view line);
+// What may separate the cells of a line, likeliest first: a semicolon, a comma or a bar outside of
+// quotes, and white space. A comma may be that of a number, and a bar part of a word.
+std::vector<char> possible_separators(std::string_view line);
 
 // Whether a cell says that there is no number.
 bool is_missing(std::string_view cell);

@@ -134,10 +134,12 @@ class TipsySnapshot : public Snapshot {
 
   const SnapshotInfo& info() const override { return info_; }
   Column read(int type, const std::string& field) const override;
-  std::vector<std::uint64_t> read_ids(int type) const override;
+  std::vector<std::uint64_t> read_integers(int type, const std::string& field) const override;
   Vec3 position_origin() const override { return origin_; }
 
  private:
+  static std::size_t group_of(int type);
+  static bool is_own(std::size_t group, const FieldInfo& field);
   // A field that the records have.
   StoredValues values_of(std::size_t group, const std::string& label) const;
   void choose_origin();
@@ -260,32 +262,38 @@ void TipsySnapshot::describe_types() {
   }
 }
 
-Column TipsySnapshot::read(int type, const std::string& name) const {
-  const FieldInfo& field = require_field(info_, type, name);
-  std::size_t i = 0;
-  while (tipsy_types()[i].type != type)
-    ++i;
-  const TipsyType& layout = tipsy_types()[i];
-  const bool is_own = std::any_of(layout.fields.begin(), layout.fields.end(),
-                                  [&](const TipsyField& f) { return f.label == field.file_name; });
-  if (!is_own) {
-    return read_tipsy_array(*find_array(field.file_name), first_of(i), header_.counts[i],
-                            factor_of(field.file_name));
-  }
-  const Vec3 origin = field.name == "position" ? origin_ : Vec3{{0, 0, 0}};
-  return make_column({values_of(i, field.file_name)}, origin);
-}
-
-std::vector<std::uint64_t> TipsySnapshot::read_ids(int type) const {
-  const FieldInfo& field = require_ids(info_, type);
+std::size_t TipsySnapshot::group_of(int type) {
   std::size_t group = 0;
   while (tipsy_types()[group].type != type)
     ++group;
-  const TipsyArray* const array = find_array(field.file_name);
-  auto ids = array == nullptr ? std::nullopt
-                              : read_tipsy_integers(*array, first_of(group), header_.counts[group]);
-  if (!ids) refuse_ids(info_, type, field);
-  return std::move(*ids);
+  return group;
+}
+
+bool TipsySnapshot::is_own(std::size_t group, const FieldInfo& field) {
+  const auto& fields = tipsy_types()[group].fields;
+  return std::any_of(fields.begin(), fields.end(),
+                     [&](const TipsyField& f) { return f.label == field.file_name; });
+}
+
+Column TipsySnapshot::read(int type, const std::string& name) const {
+  const FieldInfo& field = require_field(info_, type, name);
+  const std::size_t group = group_of(type);
+  if (!is_own(group, field)) {
+    return read_tipsy_array(*find_array(field.file_name), first_of(group), header_.counts[group],
+                            factor_of(field.file_name));
+  }
+  const Vec3 origin = field.name == "position" ? origin_ : Vec3{{0, 0, 0}};
+  return make_column({values_of(group, field.file_name)}, origin);
+}
+
+std::vector<std::uint64_t> TipsySnapshot::read_integers(int type, const std::string& name) const {
+  const FieldInfo& field = require_field(info_, type, name);
+  const std::size_t group = group_of(type);
+  auto numbers = is_own(group, field) ? make_integers({values_of(group, field.file_name)})
+                                      : read_tipsy_integers(*find_array(field.file_name),
+                                                            first_of(group), header_.counts[group]);
+  if (!numbers) refuse_integers(info_, type, field);
+  return std::move(*numbers);
 }
 
 class TipsyFormat : public SnapshotFormat {

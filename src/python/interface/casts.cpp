@@ -1,5 +1,7 @@
 #include "python/interface/casts.h"
 
+#include <map>
+
 namespace splotchcl::py {
 
 // Whoever drops it last may lack Python's lock.
@@ -234,16 +236,20 @@ ArrayOfNumbers Cast<ArrayOfNumbers>::from(PyObject* object) {
   const auto kind = py::from<std::string>(item(layout, "typestr").get());
   const auto shape = py::from<std::vector<std::int64_t>>(item(layout, "shape").get());
   const auto data = py::from<std::vector<Object>>(item(layout, "data").get());
-  const std::string of_float = endianness + std::string("f4");
-  const std::string of_double = endianness + std::string("f8");
-  const bool is_known = kind == of_float || kind == of_double;
+  using Kind = ArrayOfNumbers::Kind;
+  const std::map<std::string, Kind> kinds = {{endianness + std::string("f4"), Kind::float32},
+                                             {endianness + std::string("f8"), Kind::float64},
+                                             {endianness + std::string("i8"), Kind::int64},
+                                             {endianness + std::string("u8"), Kind::uint64}};
+  const auto found = kinds.find(kind);
   // Strides are None in C order.
-  if (!is_known || shape.empty() || shape.size() > 2 || !item(layout, "strides").is_none()) {
+  if (found == kinds.end() || shape.empty() || shape.size() > 2 ||
+      !item(layout, "strides").is_none()) {
     throw CastError{expected};
   }
   ArrayOfNumbers array;
   array.first = reinterpret_cast<const void*>(py::from<std::uintptr_t>(data.at(0).get()));
-  array.is_double = kind == of_double;
+  array.kind = found->second;
   array.count = static_cast<std::uint64_t>(shape[0]);
   array.width = shape.size() > 1 ? static_cast<int>(shape[1]) : 1;
   array.owner = shared(object);

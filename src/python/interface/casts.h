@@ -293,11 +293,12 @@ struct Cast<ArrayLayout> {
   static Object to(const ArrayLayout& layout);
 };
 
-// A numpy array of floats or doubles in C order, of the shape (N,) or (N, width). It lives as long
-// as somebody has `owner`.
+// A numpy array of numbers of one of these kinds in C order, of the shape (N,) or (N, width). It
+// lives as long as somebody has `owner`.
 struct ArrayOfNumbers {
+  enum class Kind { float32, float64, int64, uint64 };
   const void* first = nullptr;
-  bool is_double = false;
+  Kind kind = Kind::float32;
   std::uint64_t count = 0;
   int width = 1;
   std::shared_ptr<const void> owner;

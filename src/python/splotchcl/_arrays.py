@@ -11,7 +11,7 @@ from ._core import UsageError
 
 
 def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None]:
-    """An array of floats or doubles in C order, and a note where that took a copy.
+    """An array that the library takes, in C order, and a note where that took a copy.
 
     Parameters
     ----------
@@ -41,7 +41,10 @@ def as_values(field: str, values: Any) -> tuple[np.ndarray[Any, Any], str | None
     # What 32 bits cannot hold goes as doubles, from which the library subtracts the origin.
     is_narrow = plain.dtype.kind == "b" or np.can_cast(plain.dtype, np.float32, "safe")
     wanted = np.dtype(np.float32 if is_narrow else np.float64)
-    note = _copy_note(field, values, plain)
+    # Nor do doubles hold all identifiers.
+    if not is_narrow and plain.dtype.kind in "iu" and plain.shape[1:] in ((), (1,)):
+        wanted = np.dtype(np.int64 if plain.dtype.kind == "i" else np.uint64)
+    note = _copy_note(field, values, plain, wanted)
     if plain.dtype == wanted and plain.flags.c_contiguous and plain.flags.aligned:
         is_borrowed = wanted == np.float32 and isinstance(values, np.ndarray)
         return plain, None if is_borrowed else note
@@ -81,7 +84,9 @@ def _unmasked(what: str, given: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     return unmasked
 
 
-def _copy_note(field: str, values: Any, given: np.ndarray[Any, Any]) -> str:
+def _copy_note(
+    field: str, values: Any, given: np.ndarray[Any, Any], wanted: np.dtype[Any]
+) -> str:
     reasons = []
     if not isinstance(values, np.ndarray):
         reasons.append(f"it is of the type {type(values).__name__}, not a numpy array")
@@ -91,4 +96,5 @@ def _copy_note(field: str, values: Any, given: np.ndarray[Any, Any]) -> str:
         reasons.append("it is not in C order")
     if not given.flags.aligned:
         reasons.append("it is not aligned in memory")
-    return f"field {field} was copied as 32-bit floats ({', '.join(reasons)})"
+    kind = "whole numbers" if wanted.kind in "iu" else "32-bit floats"
+    return f"field {field} was copied as {kind} ({', '.join(reasons)})"

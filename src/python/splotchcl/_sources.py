@@ -32,6 +32,11 @@ class ParticleType:
         return int(self._described["count"])
 
     @property
+    def particles_per_read(self) -> float:
+        """How many particles of the file each stands for: more than 1 where a part of them is read."""
+        return float(self._described["particles_per_read"])
+
+    @property
     def fields(self) -> dict[str, str]:
         """Names of the fields, and their units ("" where the file does not say)."""
         return {name: field[2] for name, field in self._described["fields"].items()}
@@ -65,23 +70,23 @@ class ParticleType:
         numpy.ndarray
             float32 of shape (N,), or (N, 3) for vectors, read-only and without a copy where the
             file allows it. Positions that the file holds in double precision are float64.
-            Identifiers of a file are exact: "id" is uint64, "halo_id" int64.
+            Identifiers are exact: "id" is uint64, "halo_id" int64.
 
         Raises
         ------
         UsageError, DataError
             For a field that the type does not have, naming those that it has, and for identifiers
-            that the file has as no whole numbers.
+            that are no whole numbers.
         """
         if not isinstance(field, str):
             raise UsageError(f"field {field!r}: expected a name, one of {', '.join(self.fields)}")
         name = self._canonical_name(field)
-        is_of_arrays = isinstance(self._source, _core.ParticleArrays)  # which are floats already
-        if name in _IDENTIFIERS and name in self.fields and not is_of_arrays:
+        if name in _IDENTIFIERS and name in self.fields:
             exact: np.ndarray[Any, Any] = np.asarray(
                 self._source.read_integers(self._number, field)
             )
             return exact.view(_IDENTIFIERS[name])
+        is_of_arrays = isinstance(self._source, _core.ParticleArrays)
         if name == "mass" and name not in self and self._described["mass"] is None:
             raise UsageError(
                 f"field {field!r}: {self.name} has no masses, expected one of "

@@ -27,6 +27,7 @@ class Profile:
     weights: _Array
     """The sum of the weights in each shell: of a density the mass."""
     counts: _Array
+    """Particles that were read, whatever each stands for."""
     center: tuple[float, float, float]
     inside: float
     """The sum of the weights within the innermost edge."""
@@ -212,6 +213,13 @@ def _kinds_of(source: Source, types: Sequence[str] | str) -> list[ParticleType]:
 
 
 def _joined(kinds: list[ParticleType], field: str) -> _Array:
+    units = {kind.fields.get(kind._canonical_name(field), "") for kind in kinds}
+    if len(units) > 1:
+        found = ", ".join(map(repr, sorted(units)))
+        raise UsageError(
+            f"field {field!r}: found the units {found} of {', '.join(kind.name for kind in kinds)}, expected "
+            "one; take these types one by one"
+        )
     return np.concatenate([np.asarray(kind[field]) for kind in kinds])
 
 
@@ -220,10 +228,10 @@ def _scalars(kinds: list[ParticleType], field: str) -> _Array:
     return values if values.ndim == 1 else np.sqrt((values**2).sum(axis=1))
 
 
+# Of a part of the particles each stands for several.
 def _weights_of(kinds: list[ParticleType], weight: str) -> _Array:
-    if weight == "constant":
-        return np.ones(sum(len(kind) for kind in kinds))
-    return _scalars(kinds, weight)
+    stands_for = np.concatenate([np.full(len(kind), kind.particles_per_read) for kind in kinds])
+    return stands_for if weight == "constant" else stands_for * _scalars(kinds, weight)
 
 
 # Where all particles lie in one period of it.
@@ -254,7 +262,7 @@ def _center_of(
         return np.asarray(position[np.argmax(np.where(good & np.isfinite(density), density, -np.inf))])
     if center != "mass":
         raise UsageError(f"center: found {center!r}, expected three numbers, 'densest' or 'mass'")
-    mass, inside = _scalars(kinds, "mass")[good], position[good]
+    mass, inside = _weights_of(kinds, "mass")[good], position[good]
     first = inside[0]
     if box is not None:  # around the mean of the coordinates' angles
         turns = np.exp(2j * np.pi * inside / box)

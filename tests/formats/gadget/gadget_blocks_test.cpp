@@ -1,4 +1,6 @@
 // Which blocks Gadget's files have, of which types and lengths, and what tells so.
+#include <fmt/format.h>
+
 #include "formats/snapshot_rows.h"
 
 namespace splotchcl::test {
@@ -13,20 +15,27 @@ std::string record(const std::string& content) {
   return mark_of(content.size()) + content + mark_of(content.size());
 }
 
-// An INFO block about one block of floats: values per particle, a flag for each type.
+// An INFO block about one block: values per particle, a flag for each type.
 std::string info_block(const std::string& label, std::uint32_t values,
-                       const std::array<std::uint32_t, 6>& types) {
-  std::string info = label + "FLOAT   ";
+                       const std::array<std::uint32_t, 6>& types,
+                       const std::string& kind = "FLOAT   ") {
+  std::string info = label + kind;
   info.append(reinterpret_cast<const char*>(&values), 4);
   info.append(reinterpret_cast<const char*>(types.data()), sizeof types);
   return record(std::string("INFO") + std::string("\x30\0\0\0", 4)) + record(info);
 }
 
 // Of two types with as many particles.
-TestSnapshot two_types(const std::string& label, unsigned types) {
+TestSnapshot two_types(const std::string& label, unsigned types, double mass_of_second = 0,
+                       bool has_double_positions = false) {
   TestSnapshot written;
   written.counts = {8, 8, 0, 0, 0, 0};
+  written.table_masses[1] = mass_of_second;
   add_block(written, "POS", 3U, 3);
+  if (has_double_positions) {
+    written.block("POS").kind = ValueKind::float64;
+    add_block(written, "VEL", 3U, 3);
+  }
   add_block(written, label, types, 1);
   return written;
 }
@@ -91,6 +100,11 @@ TEST_P(GadgetBlocks, AreReadOrRefused) {
 
 constexpr bool in_part = false;  // or not at all
 
+const std::string whole_of_stars = [] {
+  const std::vector<int> numbers(small_snapshot().counts[4], 16777217);
+  return fmt::format("whole/4 TRID {}", fmt::join(numbers, " "));
+}();
+
 INSTANTIATE_TEST_SUITE_P(
     Header, GadgetBlocks,
     ::testing::ValuesIn(std::vector<BlocksRow>{
@@ -123,6 +137,21 @@ INSTANTIATE_TEST_SUITE_P(
         {"AreNotedWhereSeveralFit", 2, two_types("NEW", 1U), "note NEW fits several sets"},
         {"AreThoseOfAnInfoBlock", 2, two_types("NEW", 2U), "no NEW/0", true,
          info_block("NEW ", 1, {0, 1, 0, 0, 0, 0})},
+        {"AreExactAsWholeNumbersWhereAnInfoBlockSaysSo", 2, small([](auto& written) {
+           const std::vector<double> numbers(written.counts[4], 16777217);
+           written.blocks.push_back({"TRID", 16U, 1, ValueKind::uint32, {{}, {}, {}, {}, numbers}});
+         }),
+         whole_of_stars.c_str(), in_part, info_block("TRID", 1, {0, 0, 0, 0, 1, 0}, "LONG    ")},
+        // As long as doubles of gas alone.
+        {"AreAllOfMassesWhereTheTableHasSomeToo", 2, two_types("MASS", 3U, 7),
+         "note MASS fits several sets"},
+        {"AreAllOfABlockOfGasInThePrecisionOfPositions", 2, two_types("U", 3U),
+         "note U fits several sets"},
+        {"AreAllOfSmoothingLengthsInThePrecisionOfPositions", 2, two_types("HSML", 3U),
+         "note HSML fits several sets"},
+        {"AreAllOfSmoothingLengthsInThePrecisionOfVelocities", 2, two_types("HSML", 3U, 0, true),
+         "note HSML fits several sets of particle types by its length; taken for type 0 and 1",
+         in_part},
         // One for each of 16 particles, or two for each of 8.
         {"OfOtherWidthsThanAnInfoBlockSaysAreLeftOut", 2, two_types("ZS", 3U),
          "no ZS/0 | note ZS left out: it has 2 values", in_part,

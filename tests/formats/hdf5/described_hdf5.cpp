@@ -71,9 +71,12 @@ void write_part(const Hdf5Output& file, const std::string& part) {
   } else if (const std::size_t at = name.find('@'); at != std::string::npos) {
     const std::string object = name.substr(0, at);
     std::string attribute = name.substr(at + 1);
+    if (attribute.back() == ':') attribute.pop_back();  // without values
     const hid_t type = take_type(attribute);
     make_group_once(file, object);
-    if (value.front() == '"') {
+    if (value == "true" || value == "false") {
+      write_truth(file, object, attribute, value == "true");
+    } else if (!value.empty() && value.front() == '"') {
       write_text(file, object, attribute, value.substr(1));
     } else {
       write_attribute(file, object, attribute, values_in(value), type);

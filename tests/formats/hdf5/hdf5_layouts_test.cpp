@@ -41,6 +41,19 @@ TEST_F(Hdf5Layout, ArraysAndRecordsInRecordsAreRead) {
               ElementsAre(18446744073709551615U, 7U));
 }
 
+TEST_F(Hdf5Layout, OtherNamesOfAGroupAreNoMoreParticles) {
+  const auto write_with_link = [this](const std::string& group, const std::string& target) {
+    const Hdf5Output file = create_hdf5(path_);
+    write_values(file, group + "/pos", {1, 2, 3, 4, 5, 6}, 3);
+    write_values(file, group + "/mass", {7, 8});
+    H5Lcreate_soft(target.c_str(), file.id(), "dm", H5P_DEFAULT, H5P_DEFAULT);
+  };
+  write_with_link("gas", "/gas");
+  expect_snapshot(path_, {}, "types 1 | mass/0 7 8");
+  write_with_link("1/2/3/4/5/6/7/8", "/1/2/3/4/5/6/7/8");  // where nobody looks for particles
+  expect_snapshot(path_, {}, "types 1 | mass/1 7 8");
+}
+
 TEST_F(Hdf5Layout, UnitsThatAstropyKeepsBesideATableAreRead) {
   {
     const Hdf5Output file = create_hdf5(path_);

@@ -2,7 +2,9 @@
 
 #include <hdf5.h>
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/hdf5/hdf5_file.h"
@@ -75,7 +77,21 @@ inline void write_attribute(const Hdf5Output& file, const std::string& group,
   const Hdf5Handle<H5Sclose> space(H5Screate_simple(1, &length, nullptr));
   const Hdf5Handle<H5Aclose> attribute(
       H5Acreate2(owner.id(), name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT));
-  H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
+  if (!values.empty()) H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data());
+}
+
+// As h5py writes a truth value: of an enumeration of bytes.
+inline void write_truth(const Hdf5Output& file, const std::string& object, const std::string& name,
+                        bool value) {
+  const Hdf5Handle<H5Oclose> owner(H5Oopen(file.id(), object.c_str(), H5P_DEFAULT));
+  const Hdf5Handle<H5Tclose> type(H5Tenum_create(H5T_STD_I8LE));
+  for (const auto& [word, number] : {std::pair("FALSE", std::int8_t{0}), {"TRUE", std::int8_t{1}}})
+    H5Tenum_insert(type.id(), word, &number);
+  const Hdf5Handle<H5Sclose> space(H5Screate(H5S_SCALAR));
+  const Hdf5Handle<H5Aclose> attribute(
+      H5Acreate2(owner.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT));
+  const auto byte = static_cast<std::int8_t>(value);
+  H5Awrite(attribute.id(), type.id(), &byte);
 }
 
 // As h5py writes a text: UTF-8 of any length.
