@@ -37,7 +37,8 @@ Scene begun_by(const Scene& start, const std::vector<std::string>& settings) {
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
                [](const std::string& setting) {
                  const std::string key = key_of(setting);
-                 return key.rfind("read.", 0) == 0 || key.rfind("time.", 0) == 0;
+                 return key.rfind("read.", 0) == 0 || key.rfind("time.", 0) == 0 ||
+                        key.rfind("periodic.", 0) == 0;
                });
   return apply_settings(start, own);
 }
