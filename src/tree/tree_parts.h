@@ -19,7 +19,8 @@ struct TreePart {
   std::optional<FieldPlaces> color_places, intensities;  // of the fields that are used
   std::optional<PaletteWay> palette;
   double deviation_per_h = 0;  // in lengths
-  double light_per_flux = 0;   // times pixels per length squared: the sum over pixels
+  // Times pixels per length squared: the sum over pixels of light, or of depth without light.
+  double light_per_flux = 0;
   double least_amplitude = 0;  // of absorption, over brightness
 
   const TreeOfType& tree() const { return *part->tree; }
