@@ -198,7 +198,7 @@ __kernel void interpolate_values(const InterpolateParameters p, __global const f
 
 // What holds for an axis, in the lanes of a part.
 typedef struct PathAxes {
-  VALUE shift_high, shift_low, lower, upper;
+  VALUE shift_high, shift_low, size_high, size_low, inverse_size, lower, upper;
 } PathAxes;
 
 INLINED VALUE axes_in_part(const float* of_axes, uint part) {
@@ -212,20 +212,23 @@ INLINED PathAxes axes_of_part(const PathParameters path, uint part) {
   PathAxes axes;
   axes.shift_high = axes_in_part(path.shift_high, part);
   axes.shift_low = axes_in_part(path.shift_low, part);
+  axes.size_high = axes_in_part(path.size_high, part);
+  axes.size_low = axes_in_part(path.size_low, part);
+  axes.inverse_size = axes_in_part(path.inverse_size, part);
   axes.lower = axes_in_part(path.lower, part);
   axes.upper = axes_in_part(path.upper, part);
   return axes;
 }
 
-static inline VALUE less_periods(VALUE x, VALUE periods, const PathParameters path) {
-  return (x - periods * path.size_high) - periods * path.size_low;
+static inline VALUE less_periods(VALUE x, VALUE periods, const PathAxes axes) {
+  return (x - periods * axes.size_high) - periods * axes.size_low;
 }
 
 static inline VALUE wrapped(VALUE x, const PathAxes axes, const PathParameters path) {
   if (!path.is_periodic) return x;
   const INTEGER is_inside = x >= axes.lower & x < axes.upper;
   if (!ANY(is_inside == 0)) return x;
-  const VALUE moved = less_periods(x, floor_of((x - axes.lower) * path.inverse_size), path);
+  const VALUE moved = less_periods(x, floor_of((x - axes.lower) * axes.inverse_size), axes);
   return choose(moved, x, is_inside);
 }
 
@@ -250,7 +253,7 @@ INLINED VALUE positions_between(uint i, const InterpolateParameters p, const Pat
       path.second_rate;
   VALUE way = ((y - x) + axes.shift_high) + axes.shift_low;
   if (path.is_periodic) {
-    way = less_periods(way, floor_of(way * path.inverse_size + 0.5f), path);
+    way = less_periods(way, floor_of(way * axes.inverse_size + 0.5f), axes);
   }
   const VALUE moved = path.is_straight ? p.fraction * way
                                        : (path.of_way * way + path.of_first_tangent * m) +

@@ -16,7 +16,7 @@ typedef struct InterpolateParameters {
 // Of positions, PathNumbers. Strides are 0 where there are no velocities.
 typedef struct PathParameters {
   float shift_high[3], shift_low[3];
-  float size_high, size_low, inverse_size;
+  float size_high[3], size_low[3], inverse_size[3];
   float lower[3], upper[3];
   float first_rate, second_rate;
   float of_way, of_first_tangent, of_second_tangent;

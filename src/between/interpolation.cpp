@@ -259,18 +259,19 @@ float value_between(const ColumnBetween& column, Members of, std::size_t compone
                                                          : mean_of(a, b, column.fraction);
 }
 
-float periods_in(float way, const PathNumbers& path) {
-  return std::floor(way * path.inverse_size + 0.5F);
+float periods_in(float way, int axis, const PathNumbers& path) {
+  return std::floor(way * path.inverse_size[axis] + 0.5F);
 }
 
-float less_periods(float x, float periods, const PathNumbers& path) {
-  return (x - periods * path.size_high) - periods * path.size_low;
+float less_periods(float x, float periods, int axis, const PathNumbers& path) {
+  return (x - periods * path.size_high[axis]) - periods * path.size_low[axis];
 }
 
 // Only what has left the period is moved, so that nothing else is rounded.
 float wrapped(float x, int axis, const PathNumbers& path) {
   if (!path.is_periodic || (x >= path.lower[axis] && x < path.upper[axis])) return x;
-  return less_periods(x, std::floor((x - path.lower[axis]) * path.inverse_size), path);
+  const float periods = std::floor((x - path.lower[axis]) * path.inverse_size[axis]);
+  return less_periods(x, periods, axis, path);
 }
 
 float tangent(const Column& velocity, std::size_t place, int axis, float rate) {
@@ -294,7 +295,7 @@ float position_between(const ColumnBetween& column, Members of, int axis) {
   if (of.in_second == IdMatch::nobody) return wrapped(x + path.from_first * m, axis, path);
   float way = ((coordinate(column.second, of.in_second) - x) + path.shift_high[axis]) +
               path.shift_low[axis];
-  if (path.is_periodic) way = less_periods(way, periods_in(way, path), path);
+  if (path.is_periodic) way = less_periods(way, periods_in(way, axis, path), axis, path);
   if (path.is_straight) return wrapped(x + column.fraction * way, axis, path);
   const float n = tangent(column.second_velocity, of.in_second, axis, path.second_rate);
   const float moved = (path.of_way * way + path.of_first_tangent * m) + path.of_second_tangent * n;
@@ -303,13 +304,13 @@ float position_between(const ColumnBetween& column, Members of, int axis) {
 
 void set_period(const PathSetting& setting, PathNumbers& path) {
   if (!setting.period) return;
-  const double size = setting.period->size;
   path.is_periodic = true;
-  path.size_high = static_cast<float>(size);
-  path.size_low = static_cast<float>(size - static_cast<double>(path.size_high));
-  path.inverse_size = static_cast<float>(1 / size);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double lower = setting.period->lower - setting.first_origin.a[axis];
+    const double size = setting.period->size[axis];
+    path.size_high[axis] = static_cast<float>(size);
+    path.size_low[axis] = static_cast<float>(size - static_cast<double>(path.size_high[axis]));
+    path.inverse_size[axis] = static_cast<float>(1 / size);
+    const double lower = setting.period->lower.a[axis] - setting.first_origin.a[axis];
     path.lower[axis] = static_cast<float>(lower);
     path.upper[axis] = static_cast<float>(lower + size);
   }

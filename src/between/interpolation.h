@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "splotchcl/particles.h"
+#include "splotchcl/periodic.h"
 
 namespace splotchcl {
 
@@ -32,10 +33,10 @@ struct IdMatch {
 IdMatch match_ids(const std::vector<std::uint64_t>& first,
                   const std::vector<std::uint64_t>& second);
 
-// One period of positions on every axis, [lower, lower + size), in the true coordinates.
+// One period of positions along each axis, [lower, lower + size), in the true coordinates.
 struct PeriodicRange {
-  double lower = 0;
-  double size = 0;
+  Vec3 lower = {{0, 0, 0}};
+  BoxSides size = 0;
 };
 
 // The numbers of a path between two snapshots, in single precision: what host and kernels compute
@@ -45,7 +46,7 @@ struct PathNumbers {
   float shift_high[3] = {0, 0, 0}, shift_low[3] = {0, 0, 0};
   // The period, as a sum of two, and where it begins and ends; is_periodic is false without one.
   bool is_periodic = false;
-  float size_high = 0, size_low = 0, inverse_size = 0;
+  float size_high[3] = {0, 0, 0}, size_low[3] = {0, 0, 0}, inverse_size[3] = {0, 0, 0};
   float lower[3] = {0, 0, 0}, upper[3] = {0, 0, 0};
   // From stored velocities to tangents: the path's change over the interval.
   float first_rate = 0, second_rate = 0;

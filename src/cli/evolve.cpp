@@ -236,7 +236,8 @@ class Evolution {
                                    [this](const std::string& note) { console_.note(note); }, {}});
     scene_->decide();
     drawer_->tell(scene_->notes());
-    for (const int frame : frames_that_decide(options_.frames)) {
+    const bool follows = scene_->scene().finish.exposure_follows;
+    for (const int frame : frames_that_decide(options_.frames, follows)) {
       if (!FilmDrawer::asks_for_tone(scene_->scene(), scene_->other_scenes())) return;
       console_.status("finding the film's exposure");
       drawer_->decide_tone(frame, scene_->scene(), *scene_->snapshot_at(galaxy.at(time_of(frame))),

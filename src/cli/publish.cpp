@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "cli/processes.h"
 #include "common/output_files.h"
 #include "common/unfinished_file.h"
+#include "finish/overlay.h"
 #include "finish/ticks.h"
 #include "open_scene/input_files.h"
 #include "publish/light_splats.h"
@@ -96,9 +98,41 @@ void check_page_path(const std::filesystem::path& path) {
 }
 
 // One view, without what lies over it.
+// What a scene says of its pictures that nothing published shows.
+std::vector<std::string> keys_not_shown(const Scene& scene, bool is_page) {
+  const FinishSettings& finish = scene.finish;
+  const std::vector<std::pair<const char*, bool>> said = {
+      {"camera.near", scene.camera && scene.camera->near_limit},
+      {"camera.far", scene.camera && scene.camera->far_limit},
+      {"stereo", scene.stereo.has_value()},
+      {"image.background_image", !scene.image.background_image.empty()},
+      {"kernel.cut", scene.kernel.cut.has_value()},
+      {"kernel.min_radius", scene.kernel.min_radius_pixels > 0},
+      {"finish.title", !is_page && !finish.title.text.empty()},
+      {"finish.label", !finish.label.text.empty()},
+      {"finish.caption", !finish.caption.text.empty()},
+      {"finish.color_bar", finish.color_bar.show},
+      {"finish.inset", finish.inset.show},
+      {"finish.cross_fade", finish.cross_fade.amount > 0},
+      {"finish.fade", finish.fade > 0},
+      {"path", scene.path.is_set()}};
+  std::vector<std::string> keys;
+  for (const auto& [key, is_said] : said) {
+    if (is_said) keys.emplace_back(key);
+  }
+  return keys;
+}
+
 Scene plain(Scene scene) {
   scene.stereo.reset();
   scene.finish.inset = {};
+  scene.finish.color_bar = {};
+  scene.finish.label = scene.finish.caption = {};
+  scene.image.background_image.clear();
+  if (scene.camera && !scene.camera->fade.is_set()) {
+    scene.camera->near_limit.reset();
+    scene.camera->far_limit.reset();
+  }
   return scene;
 }
 
@@ -187,6 +221,9 @@ int run_publish(const PublishOptions& options, Console& console) {
   const bool is_page = !is_splat_file(path);
   const Scene scene = is_page ? plain(source.scene) : as_compared(plain(source.scene));
   const SnapshotInfo& snapshot = source.snapshot->info();
+  const std::vector<std::string> not_shown = keys_not_shown(source.scene, is_page);
+  if (!not_shown.empty())
+    console.note(fmt::format("what is published does not show {}", fmt::join(not_shown, ", ")));
 
   std::vector<std::string> notes = snapshot.notes;
   const LoadProgress progress = [&](const std::string& what, double fraction) {
@@ -206,8 +243,11 @@ int run_publish(const PublishOptions& options, Console& console) {
     return 0;
   }
   WebPage page;
-  page.title = options.title.value_or(
-      scene.finish.title.text.empty() ? options.scene.stem().string() : scene.finish.title.text);
+  page.title = options.title.value_or(scene.finish.title.text.empty()
+                                          ? options.scene.stem().string()
+                                          : replace_placeholders(scene.finish.title.text, snapshot,
+                                                                 scene.finish.frame.value_or(0),
+                                                                 "finish.title.text"));
   page.unit = length_unit(snapshot);
   page.gamma = scene.image.gamma;
   page.particles = particles.size();

@@ -26,27 +26,21 @@
 namespace splotchcl {
 namespace {
 
-// How the settings say that a snapshot is read: it must be open before there is a scene to which
-// all of them apply.
-ReadSettings read_settings_in(const std::vector<std::string>& settings) {
-  std::vector<std::string> own;
-  std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
-               [](const std::string& setting) { return setting.rfind("read.", 0) == 0; });
-  return apply_settings(Scene(), own).read;
-}
-
 std::string key_of(const std::string& setting) {
   return trimmed(setting.substr(0, setting.find('=')));
 }
 
-// Which numbers a pattern's snapshots may have: of these one is looked at.
-std::vector<std::string> range_settings_in(const std::vector<std::string>& settings) {
+// Which snapshot is drawn, when, and how it is read: it must be open before there is a scene to
+// which all settings apply.
+Scene begun_by(const Scene& start, const std::vector<std::string>& settings) {
   std::vector<std::string> own;
   std::copy_if(settings.begin(), settings.end(), std::back_inserter(own),
                [](const std::string& setting) {
-                 return key_of(setting) == "time.first" || key_of(setting) == "time.last";
+                 const std::string key = key_of(setting);
+                 return key.rfind("read.", 0) == 0 || key.rfind("time.", 0) == 0 ||
+                        key.rfind("periodic.", 0) == 0;
                });
-  return own;
+  return apply_settings(start, own);
 }
 
 Look look_in(const std::vector<std::string>& settings, Look otherwise) {
@@ -275,41 +269,14 @@ SceneWithSnapshot open_scene_file(const std::filesystem::path& path,
   return result;
 }
 
-// The scene of a sequence's last snapshot, in which there is most to be seen.
-SceneWithSnapshot open_sequence(const std::string& pattern,
-                                const std::vector<std::string>& settings,
-                                const std::shared_ptr<Communicator>& ranks, Look otherwise) {
-  SceneWithSnapshot result;
-  Scene begun;
-  begun.time.pattern = pattern;
-  begun = apply_settings(begun, range_settings_in(settings));
-  const std::vector<ListedSnapshot> list = list_sequence(begun.time);
-  begun.time.index = list.back().index;
-  result.snapshot = SnapshotSource().at(begun);
-  share_passes(*result.snapshot, ranks);
-  const Look look = look_in(settings, otherwise);
-  const ImageSettings image = framed_picture(settings);
-  Scene suggested = with_wanted_types(suggest_scene(*result.snapshot, look, image), settings,
-                                      *result.snapshot, look, image);
-  suggested.snapshot.clear();
-  suggested.time = begun.time;
-  result.suggested = suggested;
-  result.scene = scene_file::apply_settings_to_suggested(suggested, &suggested, settings);
-  result.suggested->camera = look_all_around(*result.suggested->camera, *result.scene.camera);
-  result.suggested_camera = result.suggested->camera;
-  result.scene.look.reset();
-  if (result.scene.time.index != begun.time.index)
-    result.snapshot = SnapshotSource().at(result.scene);
-  return result;
-}
-
 bool is_sequence(const std::filesystem::path& path) {
   std::error_code error;
   return is_snapshot_pattern(path.string()) && !std::filesystem::exists(path, error);
 }
 
-// The scene that is chosen from a snapshot's data.
+// The scene that is chosen from a snapshot's data, which may be a moment of a sequence.
 SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
+                              const SequenceSettings& time,
                               const std::vector<std::string>& settings, const ShortKeys& keys,
                               Look otherwise) {
   SceneWithSnapshot result;
@@ -318,6 +285,8 @@ SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
   const ImageSettings image = framed_picture(settings);
   Scene suggested = suggest_scene(*snapshot, look, image);
   choose_types(keys, *snapshot, look, image, suggested);
+  if (time.is_set()) suggested.snapshot.clear();
+  suggested.time = time;
   result.suggested = with_wanted_types(suggested, settings, *snapshot, look, image);
   result.scene =
       scene_file::apply_settings_to_suggested(*result.suggested, &*result.suggested, settings);
@@ -331,6 +300,19 @@ SceneWithSnapshot suggest_for(const std::shared_ptr<const Snapshot>& snapshot,
   return result;
 }
 
+// Of a sequence the last snapshot, in which there is most to be seen, unless the settings say when.
+SceneWithSnapshot open_sequence(const std::string& pattern,
+                                const std::vector<std::string>& settings, const ShortKeys& keys,
+                                const std::shared_ptr<Communicator>& ranks, Look otherwise) {
+  Scene start;
+  start.time.pattern = pattern;
+  Scene begun = begun_by(start, settings);
+  if (!begun.time.index) begun.time.index = list_sequence(begun.time).back().index;
+  const std::shared_ptr<const Snapshot> snapshot = SnapshotSource().at(begun);
+  share_passes(*snapshot, ranks);
+  return suggest_for(snapshot, begun.time, settings, keys, otherwise);
+}
+
 // Which one is drawn, so that all that asks the scene knows it.
 void name_moment(SequenceSettings& time) {
   if (time.is_set() && !time.index) time.index = list_sequence(time).front().index;
@@ -341,7 +323,7 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
                                 const std::shared_ptr<Communicator>& ranks, Look otherwise) {
   SceneWithSnapshot result;
   if (is_sequence(path)) {
-    result = open_sequence(path.string(), settings, ranks, otherwise);
+    result = open_sequence(path.string(), settings, keys, ranks, otherwise);
   } else if (is_par_file(path)) {
     result.scene = read_par_file(path, settings, result.notes);
     refuse_look(result.scene, path);
@@ -351,9 +333,9 @@ SceneWithSnapshot open_together(const std::filesystem::path& path,
   } else if (lower_ending(path) == ".toml" || (is_text_of_no_known_kind(path) && has_keys(path))) {
     result = open_scene_file(path, settings, keys, ranks);
   } else {
-    result.snapshot = open_given_snapshot(path, read_settings_in(settings));
+    result.snapshot = open_given_snapshot(path, begun_by(Scene(), settings).read);
     share_passes(*result.snapshot, ranks);
-    result = suggest_for(result.snapshot, settings, keys, otherwise);
+    result = suggest_for(result.snapshot, {}, settings, keys, otherwise);
   }
   share_passes(*result.snapshot, ranks);
   name_moment(result.scene.time);
@@ -371,7 +353,7 @@ SceneWithSnapshot show_snapshot(const std::shared_ptr<const Snapshot>& snapshot,
                                 const std::vector<std::string>& settings, Look look) {
   std::vector<std::string> of_keys = settings;
   const ShortKeys short_keys = take_short_keys(of_keys);
-  SceneWithSnapshot result = suggest_for(snapshot, of_keys, short_keys, look);
+  SceneWithSnapshot result = suggest_for(snapshot, {}, of_keys, short_keys, look);
   apply(short_keys, result);
   return result;
 }

@@ -409,6 +409,26 @@ Frame as_on_page(const Frame& frame, const std::vector<LightSplat>& splats, std:
   return shown;
 }
 
+namespace {
+
+// Of words and what they lie on, as style sheets have them: the scene's color of texts, and what
+// that is read on.
+struct PageColors {
+  std::string ink, ground, scheme;
+};
+
+// On black or white, whichever has more contrast to it (WCAG 2).
+PageColors colors_of(const DisplayColor& text) {
+  const auto& [red, green, blue] = text;
+  const auto light = [](double display) { return std::pow(display, 2.2); };
+  const double luminance = 0.2126 * light(red) + 0.7152 * light(green) + 0.0722 * light(blue);
+  const bool is_light = luminance > 0.179;
+  const std::string ink = fmt::format("{:.0f} {:.0f} {:.0f}", 255 * red, 255 * green, 255 * blue);
+  return {ink, is_light ? "0 0 0" : "255 255 255", is_light ? "dark" : "light"};
+}
+
+}  // namespace
+
 std::string make_web_page(const WebPage& page, const Frame& frame, const PackedSplats& splats) {
   const Json settings = {{"title", page.title},         {"unit", page.unit},
                          {"camera", camera_of(frame)},  {"background", frame.background},
@@ -416,7 +436,11 @@ std::string make_web_page(const WebPage& page, const Frame& frame, const PackedS
                          {"finish", finish_of(page)},   {"splats", splats_of(splats)},
                          {"about", about(page, splats)}};
   const auto file = [](std::string_view name) { return std::string(text_of(name)); };
+  const PageColors colors = colors_of(page.finish.text_color);
   return put(text_of("index.html"), {{"{{title}}", escaped(page.title)},
+                                     {"{{ink}}", colors.ink},
+                                     {"{{ground}}", colors.ground},
+                                     {"{{scheme}}", colors.scheme},
                                      {"{{style}}", file("style.css")},
                                      {"{{settings}}", inside_script(settings)},
                                      {"{{camera}}", file("camera.js")},

@@ -178,8 +178,10 @@ struct SnapshotSource::State {
 
  private:
   void use_options(const SnapshotOptions& options);
+  void use_box(const std::optional<BoxSides>& box);
   std::shared_ptr<const Snapshot> at_moment(const SequenceSettings& settings);
   void use_settings(const SequenceSettings& settings);
+  void forget_pairs();
   Member member(std::size_t i);
   Pair pair(std::size_t first);
   void keep_only(std::size_t first, std::size_t last);
@@ -192,6 +194,7 @@ struct SnapshotSource::State {
 
   SequenceSettings settings_;
   SnapshotOptions options_;
+  std::optional<BoxSides> box_;
   std::vector<ListedSnapshot> list_;
   std::map<std::size_t, Member> members_;
   std::map<std::size_t, Pair> pairs_;  // by their first snapshot
@@ -205,6 +208,7 @@ struct SnapshotSource::State {
 std::shared_ptr<const Snapshot> SnapshotSource::State::at(const Scene& scene) {
   if (scene.time.is_set()) {
     use_options(options_of(scene));
+    use_box(scene.periodic.box);
     return at_moment(scene.time);
   }
   if (!single_ || path_ != scene.snapshot) {
@@ -220,14 +224,21 @@ void SnapshotSource::State::use_options(const SnapshotOptions& options) {
   options_ = options;
 }
 
+void SnapshotSource::State::use_box(const std::optional<BoxSides>& box) {
+  if (box != box_) forget_pairs();
+  box_ = box;
+}
+
+void SnapshotSource::State::forget_pairs() {
+  ahead_ = {};  // waits for its end
+  pairs_.clear();
+  last_.reset();
+  last_index_.reset();
+}
+
 void SnapshotSource::State::use_settings(const SequenceSettings& settings) {
   const bool has_new_list = list_.empty() || !is_same_list(settings, settings_);
-  if (has_new_list || !is_same_motion(settings, settings_)) {
-    ahead_ = {};  // waits for its end
-    pairs_.clear();
-    last_.reset();
-    last_index_.reset();
-  }
+  if (has_new_list || !is_same_motion(settings, settings_)) forget_pairs();
   if (has_new_list) {
     members_.clear();
     list_ = list_sequence(settings);
@@ -266,7 +277,7 @@ Member SnapshotSource::State::member(std::size_t i) {
 
 Pair SnapshotSource::State::pair(std::size_t first) {
   Pair& pair = pairs_[first];
-  if (!pair) pair = make_pair(member(first), member(first + 1), settings_);
+  if (!pair) pair = make_pair(member(first), member(first + 1), settings_, box_);
   return pair;
 }
 
@@ -306,13 +317,13 @@ void SnapshotSource::State::read_ahead(const SequencePlace& place) {
   ahead_ = {};  // of another direction: waits for its end
   ahead_index_ = next;
   ahead_ = in_background([listed = list_[next], neighbor = member(edge), is_forward,
-                          settings = settings_, options = options_] {
+                          settings = settings_, options = options_, box = box_] {
     Ahead ahead;
     ahead.member = open_member(listed, options);
     read_fields(*ahead.member, neighbor->fields_read());
     if (settings.interpolation != Interpolation::none) {
-      ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings)
-                              : make_pair(ahead.member, neighbor, settings);
+      ahead.pair = is_forward ? make_pair(neighbor, ahead.member, settings, box)
+                              : make_pair(ahead.member, neighbor, settings, box);
     }
     return ahead;
   });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <boost/qvm/vec_operations.hpp>
 #include <cmath>
 #include <cstdint>
 #include <set>
@@ -108,20 +109,22 @@ Point tangent_of(const PathEnd& end, std::size_t i) {
   return tangent;
 }
 
-double shorter_way(double displacement, const std::optional<PeriodicRange>& period) {
-  if (!period) return displacement;
-  return displacement - period->size * std::round(displacement / period->size);
+double shorter_way(double displacement, std::size_t axis,
+                   const std::optional<PeriodicRange>& period) {
+  return period ? nearest_image(displacement, period->size[axis]) : displacement;
 }
 
 // Up to so much of a side beyond it particles have left the box since they were last put into it.
 constexpr double just_left = 0.01;
 
 bool lies_within(const Point& point, const PeriodicRange& range) {
-  const double lowest = range.lower - just_left * range.size;
-  const double highest = range.lower + (1 + just_left) * range.size;
-  // What is no number lies nowhere else.
-  return std::none_of(point.begin(), point.end(),
-                      [&](double x) { return std::isfinite(x) && (x < lowest || x > highest); });
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double lowest = range.lower.a[axis] - just_left * range.size[axis];
+    const double highest = range.lower.a[axis] + (1 + just_left) * range.size[axis];
+    // What is no number lies nowhere else.
+    if (std::isfinite(point[axis]) && (point[axis] < lowest || point[axis] > highest)) return false;
+  }
+  return true;
 }
 
 std::uint64_t count_outside(const PathEnd& of, const PeriodicRange& range) {
@@ -146,7 +149,7 @@ Squares squares_of(const TypePath& path, std::size_t a, std::size_t b) {
   Squares squares;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     squares.of_tangents += std::pow(0.5 * (m0[axis] + m1[axis]), 2);
-    squares.of_ways += std::pow(shorter_way(x1[axis] - x0[axis], path.period), 2);
+    squares.of_ways += std::pow(shorter_way(x1[axis] - x0[axis], axis, path.period), 2);
   }
   return squares;
 }
@@ -176,14 +179,15 @@ ColumnBetween interpolate_positions(const TypePath& path, std::shared_ptr<const 
   return positions;
 }
 
-FoundPeriod find_period(double box, const PathEnd& first, const PathEnd& second) {
+FoundPeriod find_period(const BoxSides& box, const PathEnd& first, const PathEnd& second) {
+  using namespace boost::qvm;
   FoundPeriod found;
   found.particles = (first.position.size() + second.position.size()) / 3;
   found.outside = found.particles;
-  for (const double lower : {0.0, -0.5 * box}) {
-    const PeriodicRange range = {lower, box};
+  for (const double side_below : {0.0, 0.5}) {
+    const PeriodicRange range = {-side_below * box.vector(), box};
     const std::uint64_t outside = count_outside(first, range) + count_outside(second, range);
-    if (lower == 0 || outside < found.outside) {
+    if (side_below == 0 || outside < found.outside) {
       found.range = range;
       found.outside = outside;
     }
@@ -296,18 +300,18 @@ void check_tangents(int type, SnapshotPair& pair) {
 std::string tell_of_outside(const FoundPeriod& found) {
   if (found.outside == 0) return {};
   const std::string what = fmt::format(
-      "{} of {} particles of both snapshots lie farther outside of the header's box of {:g} than a "
+      "{} of {} particles of both snapshots lie farther outside of the periodic box of {} than a "
       "hundredth of its side",
-      found.outside, found.particles, found.range.size);
+      found.outside, found.particles, found.range.size.text());
   if (found.is_of_particles()) {
     return what + fmt::format(
-                      ": they are drawn at their images within it, from {:g} to {:g}; if they do "
-                      "not belong there, leave them out by select",
-                      found.range.lower, found.range.lower + found.range.size);
+                      ": they are drawn at their images within it, from {:g} to {:g} along x; if "
+                      "they do not belong there, leave them out by select",
+                      found.range.lower.a[0], found.range.lower.a[0] + found.range.size[0]);
   }
   return what +
          ": the box is not used, and what crosses its faces moves through all of it; put particles "
-         "into the box, or write its true side";
+         "into the box, or set periodic.box to its true side";
 }
 
 }  // namespace
@@ -333,10 +337,8 @@ const TypePath& SnapshotPair::path(int type) const {
   TypePath path;
   path.first = path_end(*first, type, motion ? motion->first_rate : 0);
   path.second = path_end(*second, type, motion ? motion->second_rate : 0);
-  // Paths have one period for all axes.
-  const std::optional<BoxSides>& box = first->info().box_size;
-  if (box && box->is_cube() && box == second->info().box_size) {
-    const FoundPeriod found = find_period(box->longest(), path.first, path.second);
+  if (box) {
+    const FoundPeriod found = find_period(*box, path.first, path.second);
     if (found.is_of_particles()) path.period = found.range;
     path.note = tell_of_outside(found);
   }
@@ -353,12 +355,15 @@ void refuse_strangers(const SnapshotInfo& first, const SnapshotInfo& second) {
 
 std::shared_ptr<const SnapshotPair> make_pair(std::shared_ptr<const SequenceMember> first,
                                               std::shared_ptr<const SequenceMember> second,
-                                              const SequenceSettings& settings) {
+                                              const SequenceSettings& settings,
+                                              const std::optional<BoxSides>& box) {
   auto pair = std::make_shared<SnapshotPair>();
   pair->first = std::move(first);
   pair->second = std::move(second);
   const SnapshotInfo& before = pair->first->info();
   const SnapshotInfo& after = pair->second->info();
+  pair->box = box;
+  if (!box && before.box_size == after.box_size) pair->box = before.box_size;
   if (settings.interpolation == Interpolation::hermite) {
     check_velocities(before);
     check_velocities(after);

@@ -60,12 +60,11 @@ struct FoundPeriod {
   PeriodicRange range;
   std::uint64_t outside = 0, particles = 0;
 
-  // The header's box is that of the particles unless more than a hundredth of them lie elsewhere.
+  // A box is that of the particles unless more than a hundredth of them lie elsewhere.
   bool is_of_particles() const { return 100 * outside <= particles; }
 };
 
-// `box` as the header has it.
-FoundPeriod find_period(double box, const PathEnd& first, const PathEnd& second);
+FoundPeriod find_period(const BoxSides& box, const PathEnd& first, const PathEnd& second);
 
 // How well velocities fit displacements: the root mean square of the mean tangents over that
 // of the displacements, of particles in both. Nothing where none moves.
@@ -97,6 +96,7 @@ class SnapshotPair {
 
   std::shared_ptr<const SequenceMember> first, second;
   std::map<int, std::shared_ptr<const IdMatch>> matches;  // of every type that either has
+  std::optional<BoxSides> box;                            // periodic
   std::optional<Motion> motion;                           // with hermite
   std::vector<std::string> notes;
 
@@ -110,11 +110,13 @@ class SnapshotPair {
 // A column of a member, absent where the member has nothing of the type.
 Column read_or_nothing(const SequenceMember& member, int type, const std::string& field);
 
-// Matches the particles of all types. Throws DataError when the two have none in common or no
-// ids, UsageError when there are no velocities for hermite.
+// Matches the particles of all types. `box` is periodic; unset: as both headers say. Throws
+// DataError when the two have none in common or no ids, UsageError when there are no velocities for
+// hermite.
 std::shared_ptr<const SnapshotPair> make_pair(std::shared_ptr<const SequenceMember> first,
                                               std::shared_ptr<const SequenceMember> second,
-                                              const SequenceSettings& settings);
+                                              const SequenceSettings& settings,
+                                              const std::optional<BoxSides>& box = {});
 
 // For snapshots without a particle in common.
 [[noreturn]] void refuse_strangers(const SnapshotInfo& first, const SnapshotInfo& second);

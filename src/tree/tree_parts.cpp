@@ -27,9 +27,12 @@ TreePart tree_part(const Frame& frame, std::size_t component, const TreeOfCompon
                         : drawn.weight == WeightModel::constant
                             ? pi * width * frame.kernel.width
                             : std::pow(pi, 1.5) * width * width * width;
-  made.light_per_flux = factor * drawn.brightness / drawn.reference_column;
-  if (drawn.absorption.kind == Absorption::Kind::factor && drawn.brightness > 0)
-    made.least_amplitude = drawn.absorption.factor / drawn.brightness;
+  const bool absorbs = drawn.absorption.kind == Absorption::Kind::factor;
+  // What gives off no light is seen by what it takes.
+  const double amount =
+      drawn.brightness == 0 && absorbs ? drawn.absorption.factor : drawn.brightness;
+  made.light_per_flux = factor * amount / drawn.reference_column;
+  if (absorbs && amount > 0) made.least_amplitude = drawn.absorption.factor / amount;
   return made;
 }
 

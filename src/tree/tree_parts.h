@@ -20,8 +20,9 @@ struct TreePart {
   std::optional<PaletteWay> palette;
   bool has_mean_colors = false;  // nodes have those of this frame
   double deviation_per_h = 0;    // in lengths
-  double light_per_flux = 0;     // times pixels per length squared: the sum over pixels
-  double least_amplitude = 0;    // of absorption, over brightness
+  // Times pixels per length squared: the sum over pixels of light, or of depth without light.
+  double light_per_flux = 0;
+  double least_amplitude = 0;  // of absorption, over brightness
 
   const TreeOfType& tree() const { return *part->tree; }
 };

@@ -187,8 +187,11 @@ FrameDrawerOptions drawer_options(const ViewDrawer::Options& options) {
 
 // The first picture, of scenes that have several.
 ViewPicture stored(const Scene& scene, const DrawnFrame& drawn, bool as_jpeg) {
-  const Image& image = drawn.pictures.front().image;
-  const std::vector<std::uint8_t> rgb = display_bytes("picture", image, image_file_options(scene));
+  const Picture& shown = drawn.pictures.front();
+  const Image& image = shown.image;
+  ImageFileOptions options = image_file_options(scene);
+  options.places = shown.places;
+  const std::vector<std::uint8_t> rgb = display_bytes("picture", image, options);
   ViewPicture picture;
   picture.is_jpeg = as_jpeg;
   picture.file = as_jpeg ? encode_jpeg(image.width, image.height, rgb)

@@ -185,7 +185,7 @@ void put_between_snapshots(const Trial& trial, ParticleArrays& arrays, Particles
   places.second = Column::owning(std::move(second));
   PathSetting setting;
   const double side = trial.box * pixel_of(trial);
-  if (side > 0) setting.period = PeriodicRange{-0.5 * side, side};
+  if (side > 0) setting.period = PeriodicRange{{{-0.5 * side, -0.5 * side, -0.5 * side}}, side};
   places.path = make_path_numbers(setting, f);
   widths.kind = ColumnBetween::Kind::logarithmic;
   std::vector<float> narrow, wide;

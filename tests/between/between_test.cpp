@@ -60,7 +60,8 @@ ColumnBetween random_paths(bool is_straight, bool is_periodic) {
   setting.first_rate = 0.7;
   setting.second_rate = 0.9;
   setting.is_straight = is_straight;
-  if (is_periodic) setting.period = PeriodicRange{0, 100.1};
+  if (is_periodic)
+    setting.period = PeriodicRange{{{0, 0, -40}}, BoxSides(Vec3{{100.1, 70.3, 130}})};
   column.path = make_path_numbers(setting, 0.3);
   if (!is_straight) {
     column.first_velocity = random_column(3 * (in_both + vanishing), -50, 50, 3);

@@ -7,12 +7,13 @@
 namespace splotchcl::test {
 namespace {
 
-std::string page_called(const std::string& title) {
+std::string page_called(const std::string& title, const DisplayColor& text_color = {1, 1, 1}) {
   Frame frame = SceneMaker(1).make();
   frame.components.resize(1);
   frame.components.front().absorption = {Absorption::Kind::none, 0};
   WebPage page;
   page.title = title;
+  page.finish.text_color = text_color;
   page.unit = "kpc";
   return make_web_page(page, frame, pack(light_splats(frame)));
 }
@@ -56,6 +57,14 @@ TEST(WebPage, LoadsNothing) {
   for (const char* const loads : {"src=", "href=", "http:", "https:", "fetch(", "import "})
     EXPECT_THAT(page, Not(HasSubstr(loads))) << loads;
   EXPECT_THAT(page, Not(HasSubstr("{{")));
+}
+
+TEST(WebPage, HasWordsOfTheScenesColorOnWhatTheyAreReadOn) {
+  EXPECT_THAT(page_called("a"),
+              HasSubstr("--ink: 255 255 255; --ground: 0 0 0; color-scheme: dark"));
+  EXPECT_THAT(page_called("a", {0, 0, 0.4}),
+              HasSubstr("--ink: 0 0 102; --ground: 255 255 255; color-scheme: light"));
+  EXPECT_THAT(page_called("a", {1, 0.3, 0.2}), HasSubstr("--ground: 0 0 0"));
 }
 
 TEST(WebPage, ShowsATitleAsItIs) {

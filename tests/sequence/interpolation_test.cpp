@@ -66,6 +66,17 @@ TEST(LinearPositions, TakeTheShorterWayThroughThePeriodicBoundary) {
   EXPECT_THAT(values(between(first, second, 0.75), "position"), ElementsAre(1, 99, 53, 4.5, 1, 1));
 }
 
+TEST(LinearPositions, TakeTheShorterWayInABoxOfThreeSides) {
+  const BoxSides sides(Vec3{{100, 20, 60}});
+  const auto first =
+      MovingSnapshot(0).box(sides).ids(0, {1, 2}).positions(0, {98, 19, 2, 30, 8, 31}).make();
+  const auto second =
+      MovingSnapshot(1).box(sides).ids(0, {1, 2}).positions(0, {2, 3, 58, 70, 12, 29}).make();
+  EXPECT_THAT(values(between(first, second, 0.25), "position"), ElementsAre(99, 0, 1, 40, 9, 30.5));
+  EXPECT_THAT(values(between(first, second, 0.75), "position"),
+              ElementsAre(1, 2, 59, 60, 11, 29.5));
+}
+
 TEST(LinearPositions, StayInABoxAroundTheOrigin) {
   const auto first = MovingSnapshot(0).box(100).ids(0, {1}).positions(0, {48, 0, 0}).make();
   const auto second = MovingSnapshot(1).box(100).ids(0, {1}).positions(0, {-48, 0, 0}).make();
@@ -99,7 +110,7 @@ TEST(LinearPositions, AreWrappedWhereFewParticlesLieFarOutsideOfTheBox) {
   const InterpolatedSnapshot middle = between(first, second, 0.75);
   EXPECT_THAT(values(middle, "position"), Each(1));
   EXPECT_THAT(interpolated(middle.read(0, "position"))->interpolation().note,
-              HasSubstr("1 of 200 particles of both snapshots lie farther outside of the header's "
+              HasSubstr("1 of 200 particles of both snapshots lie farther outside of the periodic "
                         "box of 100 than a hundredth of its side: they are drawn at their images"));
 }
 

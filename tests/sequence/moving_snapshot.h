@@ -32,8 +32,8 @@ class MovingSnapshot : public Snapshot {
   MovingSnapshot& velocities(int type, std::vector<float> values) {
     return field(type, "velocity", std::move(values), 3);
   }
-  MovingSnapshot& box(double size) {
-    memory_.set_box_size(size);
+  MovingSnapshot& box(const BoxSides& sides) {
+    memory_.set_box_size(sides);
     return *this;
   }
   MovingSnapshot& origin(const Vec3& origin) {

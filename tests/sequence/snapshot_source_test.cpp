@@ -193,6 +193,24 @@ TEST_F(Sequence, MayHaveNumbersUpToTheLargestThatATimeHas) {
   EXPECT_THAT(numbers_of((folder_ / "snap_%03d").string(), 3, 999999999), ElementsAre(4, 5, 6));
 }
 
+TEST(SequencesOfTables, CrossTheFacesOfTheBoxThatTheSceneSays) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "t_0.csv") << "x,y,z,id\n98,5,5,1\n40,5,5,2\n";
+  std::ofstream(folder / "t_1.csv") << "x,y,z,id\n2,5,5,1\n44,5,5,2\n";
+  SnapshotSource source;
+  const auto first_x = [&](const std::optional<BoxSides>& box) {
+    Scene scene;
+    scene.time.pattern = (folder / "t_%d.csv").string();
+    scene.time.index = 0.25;
+    scene.periodic.box = box;
+    const std::shared_ptr<const Snapshot> moment = source.at(scene);
+    return moment->position_origin().a[0] + static_cast<double>(column(*moment, 0, "position")[0]);
+  };
+  EXPECT_EQ(first_x({}), 74);
+  EXPECT_EQ(first_x(BoxSides(Vec3{{100, 10, 10}})), 99);
+  EXPECT_EQ(first_x({}), 74);
+}
+
 TEST(SnapshotPatterns, FindTheNumbersOfTheNamesThatAreThere) {
   const TemporaryFolder folder;
   const auto find = [&folder](const std::string& pattern) {

@@ -78,6 +78,20 @@ TEST_F(MergedDrawings, KeepTheToleranceInRandomFrames) {
   EXPECT_GT(served, seeds(1, 120).size() / 2) << "most should be served";
 }
 
+TEST_F(MergedDrawings, KeepTheToleranceWhereMatterOnlyAbsorbs) {
+  for (const std::uint64_t seed : {2, 4, 8}) {
+    Frame frame = random_frame(seed);
+    frame.background = {1, 1, 1};
+    DrawnComponent& gas = frame.components.front();
+    gas.absorption = {Absorption::Kind::factor, 0.3 * gas.brightness};
+    gas.brightness = 0;
+    const auto drawing = draw_from_tree(frame);
+    ASSERT_TRUE(drawing.has_value()) << seed;
+    EXPECT_GT(drawing->nodes, 0U) << seed;
+    EXPECT_LE(error_of(drawing->image, frame), 1) << seed << ", found " << drawing->found;
+  }
+}
+
 // Particles of a lattice along the view, whose nodes err alike: what the estimate does not know and
 // the blocks that are drawn again show.
 TEST_F(MergedDrawings, KeepTheToleranceForALatticeAlongTheView) {

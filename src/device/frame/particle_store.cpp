@@ -43,9 +43,9 @@ shared::PathParameters parameters_of(const PathNumbers& path, const SnapshotColu
   shared::PathParameters p{};
   copy(path.shift_high, p.shift_high);
   copy(path.shift_low, p.shift_low);
-  p.size_high = path.size_high;
-  p.size_low = path.size_low;
-  p.inverse_size = path.inverse_size;
+  copy(path.size_high, p.size_high);
+  copy(path.size_low, p.size_low);
+  copy(path.inverse_size, p.inverse_size);
   copy(path.lower, p.lower);
   copy(path.upper, p.upper);
   p.first_rate = path.first_rate;

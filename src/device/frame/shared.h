@@ -47,7 +47,7 @@ static_assert(has_words<BlockCounts, 4>);
 static_assert(has_words<KeyBins, 2>);
 static_assert(has_words<SharpParameters, 41>);
 static_assert(has_words<InterpolateParameters, 10>);
-static_assert(has_words<PathParameters, 26>);
+static_assert(has_words<PathParameters, 32>);
 static_assert(has_words<SortParameters, 4>);
 static_assert(has_words<KeyBits, 2>);
 static_assert(has_words<GroupSortParameters, 5>);

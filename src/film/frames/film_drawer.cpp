@@ -81,10 +81,10 @@ FinishSettings FilmTone::following(int frame) const {
   return finish;
 }
 
-std::vector<int> frames_that_decide(int frames) {
+std::vector<int> frames_that_decide(int frames, bool follows) {
   constexpr int most = 32, frames_for_each = 8;
-  const int last = frames - 1;
-  const int steps = std::clamp(last / frames_for_each, std::min(2, last), most);
+  const int last = frames - 1, fewest = follows ? 16 : 2;
+  const int steps = std::clamp(last / frames_for_each, std::min(fewest, last), most);
   std::vector<int> chosen;
   for (int i = 0; i <= steps; ++i)
     chosen.push_back(static_cast<int>(std::int64_t{last} * i / std::max(1, steps)));

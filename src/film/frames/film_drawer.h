@@ -37,8 +37,9 @@ class FilmTone {
   std::map<int, FinishSettings> found_;
 };
 
-// The frames, of so many, that are drawn to find it: the first, the last, and some between.
-std::vector<int> frames_that_decide(int frames);
+// The frames, of so many, that are drawn to find it: the first, the last, and some between; of
+// short films more where their exposure follows, which may be another in each frame.
+std::vector<int> frames_that_decide(int frames, bool follows);
 
 // A frame of a film that has been read, to be drawn.
 struct LoadedFrame {

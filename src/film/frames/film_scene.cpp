@@ -91,15 +91,24 @@ double index_in(const Scene& scene) {
   return scene.time.index.value_or(0);
 }
 
-// In a periodic box the box is shown around the target from the start: nothing comes in at its
-// faces while the camera goes there.
-void show_box_around_target(const Snapshot& snapshot, Scene& scene) {
+// Where what the film follows is: in a periodic box from the film's first moment, else only where
+// it is chosen.
+FollowedWay find_target(const Scene& scene, bool has_box) {
+  if (scene.path.keyframes.empty()) return find_followed(scene, {index_in(scene)});
+  const std::vector<ListedSnapshot> list = list_sequence(scene.time);
+  std::vector<double> indices = {list.back().index};
+  if (has_box) indices.push_back(list.front().index);
+  return find_followed(scene, indices);
+}
+
+// The box is shown around the target from the start: nothing comes in at its faces while the camera
+// goes there.
+void show_box_around(const FollowedWay& target, Scene& scene) {
   using namespace boost::qvm;
-  if (!filled_box(scene, snapshot)) return;
   scene.periodic.wrap = true;
-  std::vector<double> indices = {index_in(scene)};
-  if (!scene.path.keyframes.empty()) indices.push_back(list_sequence(scene.time).front().index);
-  const Vec3 shift = find_followed(scene, indices).center(indices.back()) - scene.camera->look_at;
+  const bool is_series = !scene.path.keyframes.empty();
+  const double begin = is_series ? list_sequence(scene.time).front().index : index_in(scene);
+  const Vec3 shift = target.center(begin) - scene.camera->look_at;
   scene.camera->look_at += shift;
   scene.camera->position += shift;
 }
@@ -141,10 +150,10 @@ Target target_around(const std::vector<Target>& targets) {
 }
 
 // How wide the picture of what is followed is, of what the scene's camera shows.
-double part_of_view(const Scene& scene) {
+double part_of_view(const FollowedWay& target, const Scene& scene) {
   const CameraFrame shown = make_camera_frame(*scene.camera, scene.image.width, scene.image.height);
   const double side = std::min(scene.image.width, scene.image.height) / shown.pixels_per_length;
-  return scene.path.follow->size * find_followed(scene, {index_in(scene)}).radius() / side;
+  return scene.path.follow->size * target.radius() / side;
 }
 
 // Matter that the camera meets on its way around the target would lie over it as a veil.
@@ -198,11 +207,15 @@ std::string suggest_film(const FilmTarget& target, const Snapshot& snapshot, Sce
   if (!target.is_approached) path.orbit = slow_orbit(is_series);
   if (!has_target) return note_of(scene, list.size());
   path.follow = follow_of(target);
-  show_box_around_target(snapshot, scene);
+  const bool has_box = filled_box(scene, snapshot).has_value();
+  const FollowedWay followed = find_target(scene, has_box);
+  if (has_box) show_box_around(followed, scene);
+  const double part = part_of_view(followed, scene);
+  // A dive comes nearer where its target is all that there is, and nothing that is followed is
+  // shown smaller than in the picture of all.
+  const double largest_part = target.is_approached ? 0.25 : 1;
+  if (part > largest_part) path.follow->size *= largest_part / part;
   if (!target.is_approached) {
-    const double part = part_of_view(scene);
-    // Nothing is shown smaller than in the picture of all that there is.
-    if (part > 1) path.follow->size /= part;
     let_matter_fade_before_target(std::min(part, 1.0), scene);
     return "";
   }
@@ -316,8 +329,7 @@ FilmScene::FilmScene(const std::filesystem::path& path, const std::vector<std::s
   if (!scene_.camera && !path_has_camera(scene_)) {
     scene_.camera = upright(decide_camera(scene_, *snapshot_at(scene_)), scene_.image);
   }
-  if (view.place && view.zoom && scene_.time.is_set() && !target.is_approached)
-    show_whole_course(scene_);
+  if (view.place && view.zoom && scene_.time.is_set()) show_whole_course(scene_);
   if (view.place && !target.name.empty())
     let_no_matter_fade(*opened.suggested_camera, *scene_.camera);
   // A scene file that says how long its film is says what it is, too.

@@ -180,7 +180,7 @@ class Film {
       status("finding the film's exposure");
       drawer.decide_tone(frame, scene, *scene_.snapshot_at(scene), scene_.other_scenes());
     };
-    for (const int frame : frames_that_decide(count))
+    for (const int frame : frames_that_decide(count, start_.finish.exposure_follows))
       decide(frame);
     for (int frame = 0; frame < count; ++frame) {
       if (drawer.lacks_tone(scene_.scene_at(frame), scene_.other_scenes()) &&

@@ -292,6 +292,42 @@ TEST(SuggestedFilm, OrbitsAroundWhatItFollows) {
   EXPECT_NEAR(camera.fade.near_length, 0.5 * distance, 1e-6 * distance);
 }
 
+// A round cloud about x, denser in its middle, without a box.
+void write_cloud(const std::filesystem::path& file, double x, double size) {
+  std::ofstream table(file);
+  table << "x y z id smoothing_length density\n";
+  for (int i = 0; i < 343; ++i) {
+    const Vec3 from_middle = {{i % 7 - 3.0, i / 7 % 7 - 3.0, i / 49 - 3.0}};
+    const double distance = mag(from_middle);
+    if (distance > 3) continue;
+    const Vec3 place = Vec3{{x, 0, 0}} + size * distance * distance * from_middle;
+    table << place.a[0] << ' ' << place.a[1] << ' ' << place.a[2] << ' ' << i << ' ' << size
+          << " 1\n";
+  }
+}
+
+double shown_length(const Scene& scene) {
+  return 1 / part_of_picture(scene, {{1, 0, 0}});
+}
+
+// Of an object that is all that there is, a film begins with all, and comes nearer.
+TEST(SuggestedFilm, ThatDivesComesNearer) {
+  const test::TemporaryFolder folder;
+  write_cloud(folder / "cloud_0.txt", 0, 10);
+  write_cloud(folder / "cloud_1.txt", 100, 1);
+  for (const std::string name : {"cloud_0.txt", "cloud_1.txt", "cloud_%d.txt"}) {
+    const std::vector<std::string> settings = {"movie.frames=5", "image.size=[64, 64]"};
+    const FilmScene film(folder / name, settings, nullptr, {"densest", true});
+    for (int frame = 1; frame < 5; ++frame) {
+      EXPECT_LT(shown_length(film.scene_at(frame)), shown_length(film.scene_at(frame - 1)))
+          << name << " " << frame;
+    }
+    EXPECT_LE(shown_length(film.scene_at(4)), 0.2501 * shown_length(film.scene_at(0))) << name;
+  }
+  const FilmScene film(folder / "cloud_%d.txt", {"movie.frames=5"}, nullptr, {"densest", true});
+  EXPECT_GT(shown_length(film.scene_at(0)), 200) << "the first of the clouds is as large";
+}
+
 TEST(SuggestedFilm, CanBeWrittenAsASceneAndIsTheSame) {
   const test::TemporaryFolder folder;
   for (int i = 0; i < 2; ++i)

@@ -56,11 +56,15 @@ TEST(FilmTone, LeavesWhatIsGiven) {
 }
 
 TEST(FilmTone, IsFoundByFramesFromTheFirstToTheLast) {
-  EXPECT_EQ(frames_that_decide(1), (std::vector<int>{0}));
-  EXPECT_EQ(frames_that_decide(2), (std::vector<int>{0, 1}));
-  EXPECT_EQ(frames_that_decide(10), (std::vector<int>{0, 4, 9}));
-  EXPECT_EQ(frames_that_decide(1000).size(), 33U);
-  EXPECT_EQ(frames_that_decide(1000).back(), 999);
+  for (const bool follows : {false, true}) {
+    EXPECT_EQ(frames_that_decide(1, follows), (std::vector<int>{0}));
+    EXPECT_EQ(frames_that_decide(2, follows), (std::vector<int>{0, 1}));
+    EXPECT_EQ(frames_that_decide(1000, follows).size(), 33U);
+    EXPECT_EQ(frames_that_decide(1000, follows).back(), 999);
+  }
+  EXPECT_EQ(frames_that_decide(10, false), (std::vector<int>{0, 4, 9}));
+  EXPECT_EQ(frames_that_decide(5, true), (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(frames_that_decide(60, true).size(), 17U);
 }
 
 }  // namespace

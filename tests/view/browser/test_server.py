@@ -179,10 +179,14 @@ def test_two_pages_have_states_of_their_own(view):
     assert pictures[0] != pictures[1]
 
 
-def test_the_saved_scene_renders_to_the_bits_of_the_exact_picture(view, run, tmp_path):
+@pytest.mark.parametrize("settings", [
+    {"camera__field_of_view": 33.3, "finish__exposure": None},
+    {"stereo__layout": "side_by_side", "stereo__angle": 2.5, "image__size": [100, 80]},
+    {"camera__projection": "cube", "image__size": [90, 90]},
+])
+def test_the_saved_scene_renders_to_the_bits_of_the_exact_picture(view, run, tmp_path, settings):
     page = PageSocket(view())
-    page.set(1, component__0__palette="magma", component__0__brightness=3.7,
-             camera__field_of_view=33.3, finish__exposure=None)
+    page.set(1, component__0__palette="magma", component__0__brightness=3.7, **settings)
     exact = page.receive_until(is_exact(1))[-1]
     (tmp_path / "page.png").write_bytes(exact["file"])
     page.send({"type": "save_scene", "id": 1, "path": "saved.toml", "replace": False})
