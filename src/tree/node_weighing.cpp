@@ -81,7 +81,7 @@ WeighedNode NodeWeigher::weigh(const TreePart& part, const TreeItem& item,
     return weighed;
   }
   weigh_error(part, item, level, *projected, weighed);
-  if (is_along_cells(offset, projected->pixels_per_length, reach)) {
+  if (is_along_cells(part, offset, projected->pixels_per_length, reach)) {
     weighed.error2 *= alike2;
     weighed.largest2 *= alike2;
   }
@@ -89,15 +89,16 @@ WeighedNode NodeWeigher::weigh(const TreePart& part, const TreeItem& item,
 }
 
 // Whether a plane of cells is seen from its edge here: nodes on it lie behind each other in one row
-// of pixels, and err alike.
-bool NodeWeigher::is_along_cells(const Vec3& offset, double pixels_per_length, double reach) const {
-  const bool is_orthographic = frame_.projection == Projection::orthographic;
-  const double distance = std::abs(boost::qvm::dot(offset, frame_.camera.forward));
-  return std::any_of(offset.a, offset.a + 3, [&](const double& along) {
-    const auto axis = static_cast<std::size_t>(&along - offset.a);
-    const double away = is_orthographic ? distance * frame_.camera.forward.a[axis] : along;
-    return std::abs(away) * pixels_per_length < reach * pixels_per_length + pixels_of_row;
-  });
+// of pixels, and err alike. Parallel views see it so everywhere or nowhere.
+bool NodeWeigher::is_along_cells(const TreePart& part, const Vec3& offset, double pixels_per_length,
+                                 double reach) const {
+  const bool is_parallel = frame_.projection == Projection::orthographic;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double away =
+        is_parallel ? part.tree().side * frame_.camera.forward.a[axis] : offset.a[axis];
+    if (pixels_per_length * (std::abs(away) - reach) < pixels_of_row) return true;
+  }
+  return false;
 }
 
 // Members would lie at other depths, and be larger or smaller, than the node.

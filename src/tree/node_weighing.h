@@ -50,7 +50,8 @@ class NodeWeigher {
   bool is_beyond_limits(double depth) const;
   std::optional<double> limit_before() const;
   bool is_unseen(const Projected& at, double reach, double widest) const;
-  bool is_along_cells(const Vec3& offset, double pixels_per_length, double reach) const;
+  bool is_along_cells(const TreePart& part, const Vec3& offset, double pixels_per_length,
+                      double reach) const;
   void weigh_error(const TreePart& part, const TreeItem& item, std::size_t level,
                    const Projected& at, WeighedNode& weighed) const;
 
