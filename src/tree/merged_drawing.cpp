@@ -24,7 +24,7 @@ namespace {
 constexpr double least_over_pixel = 50;
 constexpr double most_that_pay = 1.0 / 24, most_that_pay_again = 1.0 / 48;  // over particles
 constexpr double most_splats_again = 1.0 / 8;
-constexpr double part_of_nodes = 0.66;      // of the tolerance
+constexpr double part_of_nodes = 0.62;      // of the tolerance
 constexpr double verified_finer = 4;        // error of the cut to which a picture is compared
 constexpr double verified_tolerance = 0.1;  // of the frame's, with which that is drawn
 constexpr double most_found = 0.65;         // of the promise, on blocks that are verified
