@@ -58,7 +58,7 @@ std::vector<int> types_of(const TreeCommandOptions& options, const SnapshotInfo&
   return options.types;
 }
 
-// Its colors are decided, and no more than these.
+// For its colors, which do not need reference columns.
 DecidedScene scene_of(const TreeCommandOptions& options, const Snapshot& snapshot,
                       Console& console) {
   Scene scene = options.scene ? read_scene_file(*options.scene) : suggest_scene(snapshot);

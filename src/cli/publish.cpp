@@ -97,7 +97,6 @@ void check_page_path(const std::filesystem::path& path) {
   check_output_path(path);
 }
 
-// One view, without what lies over it.
 // What a scene says of its pictures that nothing published shows.
 std::vector<std::string> keys_not_shown(const Scene& scene, bool is_page) {
   const FinishSettings& finish = scene.finish;
@@ -123,6 +122,7 @@ std::vector<std::string> keys_not_shown(const Scene& scene, bool is_page) {
   return keys;
 }
 
+// One view, without what lies over it.
 Scene plain(Scene scene) {
   scene.stereo.reset();
   scene.finish.inset = {};

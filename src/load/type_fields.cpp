@@ -326,9 +326,13 @@ Column TypeFields::volumes(const std::string& key, double unit) const {
   return volumes_of(masses(), scalars("density", key), *of_densities * unit, count(), streams());
 }
 
+bool TypeFields::has_density_and_mass() const {
+  return has_masses(*type_) && find_field(*type_, "density") != nullptr;
+}
+
 // From densities and masses or the volumes of cells, where they give all particles a size.
 std::optional<Column> TypeFields::lengths_from_volumes(std::string& reason) const {
-  const bool has_density = has_masses(*type_) && find_field(*type_, "density") != nullptr;
+  const bool has_density = has_density_and_mass();
   if (!has_density && find_field(*type_, "volume") == nullptr) return std::nullopt;
   const std::optional<double> unit = has_density ? unit_of_densities() : unit_of_volumes();
   if (!unit) {
@@ -352,9 +356,9 @@ std::optional<Column> TypeFields::lengths_from_volumes(std::string& reason) cons
 Column TypeFields::find_lengths() const {
   std::string reason;
   if (const auto lengths = lengths_from_volumes(reason)) {
-    const bool has_density = has_masses(*type_) && find_field(*type_, "density") != nullptr;
     say(fmt::format("type {} has no smoothing lengths in the file; they follow from {}",
-                    type_->type, has_density ? "density and mass" : "the volumes of its cells"));
+                    type_->type,
+                    has_density_and_mass() ? "density and mass" : "the volumes of its cells"));
     return *lengths;
   }
   say(

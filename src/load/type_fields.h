@@ -68,6 +68,7 @@ class TypeFields {
   Column find_lengths() const;
   std::optional<Column> own_lengths() const;
   bool reach_to_neighbors() const;  // smoothing lengths
+  bool has_density_and_mass() const;
   std::optional<Column> lengths_from_volumes(std::string& reason) const;
   std::optional<double> unit_of_densities() const;
   std::optional<double> unit_of_volumes() const;

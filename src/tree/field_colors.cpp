@@ -70,19 +70,19 @@ std::uint64_t ColorRule::key() const {
   return hash.value();
 }
 
-ParticleColors::ParticleColors(const ColorRule& rule) : rule_(rule), palette_(rule.palette) {
-  if (rule.color >= 0) places_.emplace(rule.color_map);
-  if (rule.intensity >= 0) intensities_.emplace(rule.intensity_map);
+ParticleColors::ParticleColors(const ColorRule& rule)
+    : color_(rule.color), intensity_(rule.intensity), palette_(rule.palette) {
+  if (color_ >= 0) places_.emplace(rule.color_map);
+  if (intensity_ >= 0) intensities_.emplace(rule.intensity_map);
 }
 
 std::array<float, 3> ParticleColors::operator()(const MemberValues& values) const {
-  const auto place_of = [&values](const FieldPlaces& places, int field) {
-    return places(ordered_value(values[static_cast<std::size_t>(field)]));
+  const auto ordered = [&values](int field) {
+    return field < 0 ? 0 : ordered_value(values[static_cast<std::size_t>(field)]);
   };
-  std::array<float, 3> color = palette_.color(places_ ? place_of(*places_, rule_.color) : 0);
-  const float intensity = intensities_ ? place_of(*intensities_, rule_.intensity) : 1;
+  std::array<float, 3> color = step(ordered(color_)).color;
   for (float& channel : color)
-    channel *= intensity;
+    channel *= intensity(ordered(intensity_));
   return color;
 }
 

@@ -67,6 +67,7 @@ struct ColorRule {
   ScalarMap color_map, intensity_map;
   Palette palette;
 
+  bool uses_fields() const { return color >= 0 || intensity >= 0; }
   // Of rules that give other colors another.
   std::uint64_t key() const;
 };
@@ -76,9 +77,16 @@ class ParticleColors {
  public:
   explicit ParticleColors(const ColorRule& rule);
   std::array<float, 3> operator()(const MemberValues& values) const;
+  // Of ordered_value() of the field of its kind; the palette's first, and 1, where none is used.
+  PaletteWay::Step step(std::uint32_t ordered) const {
+    return palette_.step(places_ ? (*places_)(ordered) : 0);
+  }
+  float intensity(std::uint32_t ordered) const {
+    return intensities_ ? (*intensities_)(ordered) : 1;
+  }
 
  private:
-  ColorRule rule_;
+  int color_, intensity_;  // fields, as the rule has them
   PaletteWay palette_;
   std::optional<FieldPlaces> places_, intensities_;
 };

@@ -199,7 +199,7 @@ bool tree_pays(const Frame& frame) {
 namespace {
 
 bool has_other_colors(const TreePart& part) {
-  return !part.has_mean_colors && (part.part->color >= 0 || part.part->intensity >= 0);
+  return part.colors && (part.part->color >= 0 || part.part->intensity >= 0);
 }
 
 }  // namespace

@@ -27,27 +27,26 @@ float unseen2(const SampledField& field, const std::array<std::uint32_t, sampled
 
 SampledColors sampled_colors(const TreePart& part, const SampledField* sampled, bool are_all) {
   SampledColors colors;
-  colors.steps.fill(part.palette->step(0));
   colors.factors.fill(1);
   float ways2 = 0, largest_factor = 1;
-  if (part.color_places) {
+  if (part.part->color < 0) {
+    colors.steps.fill(part.colors->step(0));
+  } else {
     const SampledField& field = sampled[part.part->color];
     const auto values = field.all_ordered();
-    for (std::size_t k = 0; k < sampled_members; ++k)
-      colors.steps[k] = part.palette->step((*part.color_places)(values[k]));
-    const auto way = [&part](std::uint32_t ordered) {
-      return part.palette->step((*part.color_places)(ordered)).way;
-    };
+    const auto step = [&part](std::uint32_t ordered) { return part.colors->step(ordered); };
+    std::transform(values.begin(), values.end(), colors.steps.begin(), step);
+    const auto way = [&step](std::uint32_t ordered) { return step(ordered).way; };
     if (!are_all) ways2 = unseen2(field, values, way);
   }
-  if (part.intensities) {
+  if (part.part->intensity >= 0) {
     const SampledField& field = sampled[part.part->intensity];
     const auto values = field.all_ordered();
-    for (std::size_t k = 0; k < sampled_members; ++k)
-      colors.factors[k] = (*part.intensities)(values[k]);
+    const auto factor = [&part](std::uint32_t ordered) { return part.colors->intensity(ordered); };
+    std::transform(values.begin(), values.end(), colors.factors.begin(), factor);
     if (!are_all) {
-      largest_factor = (*part.intensities)(field.largest_ordered());
-      colors.unseen2 = unseen2(field, values, *part.intensities);
+      largest_factor = factor(field.largest_ordered());
+      colors.unseen2 = unseen2(field, values, factor);
     }
   }
   colors.unseen2 += largest_factor * largest_factor * ways2;
@@ -75,15 +74,15 @@ float spread_around(const SampledColors& colors, std::size_t k) {
 
 NodeColor node_color(const TreePart& part, const TreeLevel& level, std::uint64_t node) {
   NodeColor color;
-  if (part.part->color < 0 && part.part->intensity < 0) {
-    color.mean = part.palette->color(0);
-    return color;
-  }
-  if (part.has_mean_colors) {
+  if (!part.colors) {
     const MeanColor& of_all = level.colors[node];
     color.mean = of_all.mean();
     color.deviation = rough_of_bits(of_all.deviation);
     color.dipole = rough_of_bits(of_all.dipole);
+    return color;
+  }
+  if (part.part->color < 0 && part.part->intensity < 0) {
+    color.mean = part.colors->step(0).color;
     return color;
   }
   const std::uint8_t members = level.nodes[node].all_sampled();

@@ -25,15 +25,13 @@ namespace {
 // The file, in the machine's own endianness: a FileHeader, a TypeHeader for each type, then of each
 // type its sections, each from a multiple of 64 bytes on; last the checksums of chunks of all that
 // comes before, and theirs.
-constexpr FileMark mark = {'s', 'p', 'l', 'o', 't', 'c',  'h', 'c',
-                           'l', ' ', 't', ' ', '5', '\n', 0,   0};
+constexpr FileMark mark_of(char version) {
+  return {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', version, '\n', 0, 0};
+}
+constexpr FileMark mark = mark_of('5');
 // Of trees without nodes of the rest, a place for particles, a sample, and mean colors; they are
 // made anew.
-constexpr FileMark older_marks[] = {
-    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '1', '\n', 0, 0},
-    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '2', '\n', 0, 0},
-    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '3', '\n', 0, 0},
-    {'s', 'p', 'l', 'o', 't', 'c', 'h', 'c', 'l', ' ', 't', ' ', '4', '\n', 0, 0}};
+constexpr FileMark older_marks[] = {mark_of('1'), mark_of('2'), mark_of('3'), mark_of('4')};
 constexpr std::uint64_t alignment = 64, chunk_bytes = 1U << 20,
                         most_checked_bytes = std::uint64_t{1} << 30;
 constexpr std::size_t name_bytes = 64;

@@ -16,11 +16,8 @@ TreePart tree_part(const Frame& frame, std::size_t component, const TreeOfCompon
   made.part = &part;
   made.of_component = drawn.particles.tree.get();
   made.drawn = &drawn;
-  made.palette.emplace(drawn.palette);
-  if (part.color >= 0) made.color_places.emplace(drawn.color);
-  if (part.intensity >= 0) made.intensities.emplace(drawn.intensity);
   const ColorRule rule = {part.color, part.intensity, drawn.color, drawn.intensity, drawn.palette};
-  made.has_mean_colors = part.tree->colors == rule.key();
+  if (!rule.uses_fields() || part.tree->colors != rule.key()) made.colors.emplace(rule);
   const double width = frame.kernel.width * drawn.size_factor;
   made.deviation_per_h = width / std::sqrt(2.0);
   const double factor = drawn.weight == WeightModel::mass ? 1

@@ -16,10 +16,8 @@ struct TreePart {
   const TreeOfComponent::Part* part = nullptr;
   const TreeOfComponent* of_component = nullptr;
   const DrawnComponent* drawn = nullptr;
-  std::optional<FieldPlaces> color_places, intensities;  // of the fields that are used
-  std::optional<PaletteWay> palette;
-  bool has_mean_colors = false;  // nodes have those of this frame
-  double deviation_per_h = 0;    // in lengths
+  std::optional<ParticleColors> colors;  // unset: nodes have the mean of this frame's
+  double deviation_per_h = 0;            // in lengths
   // Times pixels per length squared: the sum over pixels of light, or of depth without light.
   double light_per_flux = 0;
   double least_amplitude = 0;  // of absorption, over brightness

@@ -18,6 +18,11 @@ std::uint64_t splats_of(const TreeCut& cut) {
   return cut.nodes + cut.particles;
 }
 
+struct Fitting {
+  double error;
+  TreeCut cut;
+};
+
 }  // namespace
 
 std::optional<Frame> TreePreview::of(const Frame& frame, std::uint64_t most_splats) {
@@ -30,30 +35,30 @@ std::optional<Frame> TreePreview::of(const Frame& frame, std::uint64_t most_spla
   if (!is_possible) return std::nullopt;
   // The largest error that is known to take too many splats, and the least that fits.
   double too_many = least_error;
-  std::optional<double> fits;
-  std::optional<TreeCut> fitting;
+  std::optional<Fitting> fitting;
   while (true) {
     TreeCut cut = cut_tree(seen, {error_, {}, 0});
     const auto splats = static_cast<double>(splats_of(cut));
     const auto most = static_cast<double>(most_splats);
     if (splats <= most) {
       const bool is_enough = splats >= most / 2 || cut.nodes == 0;
-      fits = error_;
-      fitting = std::move(cut);
+      fitting = Fitting{error_, std::move(cut)};
       if (is_enough) break;
     } else {
       too_many = error_;
     }
-    if (fits ? *fits < as_good_as_the_same * too_many : too_many >= most_error) break;
+    const bool is_found = fitting && fitting->error < as_good_as_the_same * too_many;
+    const bool is_hopeless = !fitting && too_many >= most_error;
+    if (is_found || is_hopeless) break;
     const double step = std::pow(splats / (0.7 * most), -1 / power_of_error);
     error_ *= std::clamp(step, 1 / largest_step, largest_step);
     error_ = std::clamp(error_, least_error, most_error);
-    if (error_ <= too_many || (fits && error_ >= *fits))
-      error_ = fits ? std::sqrt(too_many * *fits) : most_error;
+    if (error_ <= too_many || (fitting && error_ >= fitting->error))
+      error_ = fitting ? std::sqrt(too_many * fitting->error) : most_error;
   }
-  error_ = fits.value_or(1);
+  error_ = fitting ? fitting->error : 1;
   if (!fitting) return std::nullopt;
-  return std::move(fitting->frame);
+  return std::move(fitting->cut.frame);
 }
 
 }  // namespace splotchcl

@@ -80,24 +80,23 @@ TEST(MapUnits, AreNeverGuessed) {
   EXPECT_THAT(refusal(scene), HasSubstr("code_mass/code_length^2"));
 }
 
-TEST(MapUnits, ThatAreNotKnownAreToldFromThoseThatAreNotSaid) {
+// Of a map in Msun/pc^2 of masses and positions in these units.
+std::string refusal_of(const char* mass, const char* position) {
   test::MemorySnapshot snapshot = wide_particle().snapshot();
-  snapshot.set_unit(0, "mass", "Msun");
-  snapshot.set_unit(0, "position", "furlong");
+  snapshot.set_unit(0, "mass", mass);
+  snapshot.set_unit(0, "position", position);
   Scene scene = map_scene();
   scene.map.unit = "Msun/pc^2";
-  EXPECT_THAT(refusal_by<Error>([&] { map_of(scene, snapshot); }),
+  return refusal_by<Error>([&] { map_of(scene, snapshot); });
+}
+
+TEST(MapUnits, ThatAreNotKnownAreToldFromThoseThatAreNotSaid) {
+  EXPECT_THAT(refusal_of("Msun", "furlong"),
               HasSubstr("in Msun/furlong^2, since the snapshot does not say units that are known"));
 }
 
 TEST(MapUnits, ThatLackTheSnapshotsFactorsSayWhich) {
-  test::MemorySnapshot snapshot = wide_particle().snapshot();
-  snapshot.set_unit(0, "mass", "Msun/h");
-  snapshot.set_unit(0, "position", "a kpc/h");
-  Scene scene = map_scene();
-  scene.map.unit = "Msun/pc^2";
-  EXPECT_THAT(refusal_by<Error>([&] { map_of(scene, snapshot); }),
-              HasSubstr("does not say the numbers for a and h"));
+  EXPECT_THAT(refusal_of("Msun/h", "a kpc/h"), HasSubstr("does not say the numbers for a and h"));
 }
 
 TEST(MapUnits, ThatDoNotExistAreToldBeforeUnitsThatAreMissing) {

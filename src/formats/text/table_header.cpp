@@ -164,7 +164,7 @@ std::vector<std::string> with_units(const std::vector<std::string_view>& words) 
 }  // namespace
 
 std::vector<std::string> names_of_columns(std::string_view line, std::size_t wanted) {
-  for (const char candidate : {',', ';', '|', '\t', ' '}) {
+  for (const char candidate : separators_of_names) {
     const std::vector<std::string_view> words = split_cells(line, candidate);
     // Lines of SPLASH end in a comma.
     const auto end = words.end() - (words.size() > 2 && words.back().empty() ? 1 : 0);

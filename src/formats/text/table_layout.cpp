@@ -166,7 +166,7 @@ void name_columns(const HeaderLines& header, TableLayout& layout) {
 
 // How many columns a line names, positions among them; 0 where it does not.
 std::size_t count_names(std::string_view line) {
-  for (const char separator : {',', ';', '|', '\t', ' '}) {
+  for (const char separator : separators_of_names) {
     std::vector<std::string_view> words = split_cells(line, separator);
     if (words.back().empty()) words.pop_back();
     if (name_positions(in_our_words({words.begin(), words.end()}))) return words.size();

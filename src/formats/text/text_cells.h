@@ -74,6 +74,9 @@ std::vector<std::string_view> split_cells(std::string_view line, char separator)
 // quotes, and white space. A comma may be that of a number, and a bar part of a word.
 std::vector<char> possible_separators(std::string_view line);
 
+// Between names of columns, in the order in which they are tried.
+constexpr char separators_of_names[] = {',', ';', '|', '\t', ' '};
+
 // Whether a cell says that there is no number.
 bool is_missing(std::string_view cell);
 // A number; not-a-number where the cell says that there is none. Where the decimal mark is known,
